@@ -1,7 +1,8 @@
-/* Particles that stand on nodes of a periodic mesh: density_i += strength_p / cell and out_p += factor_p value_i at the node i of particle p, since a kernel
- * that interpolates is 1 there and 0 at all other nodes. A node is where remesh puts it, lo + i h as rounded; the general loops find such a particle some
- * 1e-16 cells beside it. Ranks send particles to planes by these loops, on a mesh of unit cells, where that is exact: the same bytes.
+/* Particles that stand on nodes of a mesh, inside its faces: density_i += strength_p / cell and out_p += factor_p value_i at the node i of particle p, since a
+ * kernel that interpolates is 1 there and 0 at all other nodes. A node is where remesh puts it, lo + i h as rounded; the general loops find such a particle
+ * some 1e-16 cells beside it. Ranks send particles to planes by these loops, on a mesh of unit cells, where that is exact: the same bytes.
  * Cost: two passes over the positions, one over the values. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 
 #include "mesh/planes.h"
@@ -15,7 +16,8 @@ struct nodes {
 	const struct pm_grid *g;
 	size_t n;
 	const double *x[3];
-	double *at[3], *room; /* [points] where the nodes of an axis are */
+	size_t low[3], high[3]; /* the nodes on which particles may stand */
+	double *at[3], *room;   /* [points] where the nodes of an axis are */
 };
 
 static bool interpolates(const struct pm_kernel *k)
@@ -26,20 +28,36 @@ static bool interpolates(const struct pm_kernel *k)
 	return !k->star && ones == 1 && zeros == k->width - 1;
 }
 
-static bool can(const struct pm_transfer *t, const struct pm_field *x)
+/* The nodes of an axis whose particles are neither outside nor on a face. False: there are none. */
+static bool range_of(const struct pm_transfer *t, int d, size_t *low, size_t *high)
+{
+	const enum pm_face *face = t->grid.face[d];
+	const double n = (double)t->grid.cells[d], reach = 0.5 * t->kernel->width + t->rim;
+	double from = 0, to = n - 1;
+	if (face[0] != PM_PERIODIC) {
+		from = face[0] == PM_WALL || face[0] == PM_NEUMANN ? 1 : floor(reach) + 1;
+		to = face[1] == PM_WALL || face[1] == PM_NEUMANN ? n - 1 : ceil(n - reach) - 1;
+	}
+	*low = (size_t)from, *high = to < from ? 0 : (size_t)to;
+	return to >= from && (face[0] == PM_PERIODIC || !t->cut);
+}
+
+static bool can(const struct pm_transfer *t, const struct pm_field *x, struct nodes *w)
 {
 	bool can = interpolates(t->kernel) && x->type == PM_F64 && !x->uniform;
+	*w = (struct nodes){.g = &t->grid, .n = x->count};
 	for (int d = 0; d < t->grid.dim && can; d++)
-		can = t->grid.face[d][0] == PM_PERIODIC;
+		can = range_of(t, d, &w->low[d], &w->high[d]);
 	for (int c = 0; c < t->components && can; c++)
 		for (int d = 0; d < t->grid.dim; d++)
 			can = can && !t->staggered[c][d];
 	return can;
 }
 
-static int begin(struct nodes *w, const struct pm_grid *g, const struct pm_field *x)
+static int begin(struct nodes *w, const struct pm_field *x)
 {
-	*w = (struct nodes){.g = g, .n = x->count, .room = pm_alloc(g->points[0] + g->points[1] + g->points[2], sizeof *w->room)};
+	const struct pm_grid *g = w->g;
+	w->room = pm_alloc(g->points[0] + g->points[1] + g->points[2], sizeof *w->room);
 	if (!w->room)
 		return -PM_DATA;
 	for (int d = 0; d < 3; d++) {
@@ -58,7 +76,7 @@ static bool index_of(const struct nodes *w, size_t p, int d, size_t *i)
 	if (!(u >= 0 && u < (double)w->g->points[d]))
 		return false;
 	*i = (size_t)u;
-	return true;
+	return *i >= w->low[d] && *i <= w->high[d];
 }
 
 /* How many of n are equal to those of `at`, from the first on; or with one, to that. */
@@ -85,7 +103,7 @@ static size_t run_of(const struct nodes *w, size_t p, size_t end, size_t *node)
 		if (!index_of(w, p, d, &i[d]))
 			return 0;
 	*node = (i[2] * points[1] + i[1]) * points[0] + i[0];
-	size_t m = points[0] - i[0] < end - p ? points[0] - i[0] : end - p;
+	size_t m = w->high[0] + 1 - i[0] < end - p ? w->high[0] + 1 - i[0] : end - p;
 	m = same_as(m, w->x[0] + p, w->at[0] + i[0], false);
 	for (int d = 1; d < w->g->dim; d++)
 		m = same_as(m, w->x[d] + p, w->at[d] + i[d], true);
@@ -153,41 +171,50 @@ static int agree(int status, const struct nodes *w, bool *on)
 	return status;
 }
 
-/* The mesh on whose nodes they stand is kept with the positions. */
+/* On which nodes they stand is kept with the positions. */
 static const char name[] = "mesh of the nodes";
 
-static bool is_kept(const struct pm_grid *g, const struct pm_field *x)
+struct stand {
+	struct pm_grid g;
+	size_t low[3], high[3];
+};
+
+static bool is_kept(const struct nodes *w, const struct pm_field *x)
 {
-	const struct pm_grid *kept = pm_kept(x, NULL, name);
+	const struct stand *kept = pm_kept(x, NULL, name);
+	const struct pm_grid *g = w->g;
 	bool same = kept;
 	for (int d = 0; d < g->dim && same; d++)
-		same = kept->points[d] == g->points[d] && kept->lo[d] == g->lo[d] && kept->h[d] == g->h[d];
+		same = kept->g.points[d] == g->points[d] && kept->g.lo[d] == g->lo[d] && kept->g.h[d] == g->h[d] && kept->low[d] == w->low[d] &&
+			kept->high[d] == w->high[d];
 	return same;
 }
 
-static void keep(const struct pm_grid *g, const struct pm_field *x)
+static void keep(const struct nodes *w, const struct pm_field *x)
 {
-	struct pm_grid *kept = pm_alloc(1, sizeof *kept);
-	if (kept)
-		*kept = *g;
+	struct stand *kept = pm_alloc(1, sizeof *kept);
+	if (kept) {
+		kept->g = *w->g;
+		memcpy(kept->low, w->low, sizeof kept->low), memcpy(kept->high, w->high, sizeof kept->high);
+	}
 	if (!kept || !pm_keep(x, NULL, name, kept))
 		pm_free(kept);
 }
 
 int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on)
 {
-	struct nodes w = {.room = NULL};
-	*on = can(t, x);
-	if (!*on || is_kept(&t->grid, x))
+	struct nodes w;
+	*on = can(t, x, &w);
+	if (!*on || is_kept(&w, x))
 		return 0;
-	int status = begin(&w, &t->grid, x);
+	int status = begin(&w, x);
 	*on = !status && walk_piece(&w, 0, w.n < FEW ? w.n : FEW, NULL, NULL) && walk(&w, NULL, NULL);
 	if (x->here)
 		status = agree(status, &w, on);
 	else
 		*on = *on && w.n;
 	if (*on)
-		keep(&t->grid, x);
+		keep(&w, x);
 	pm_free(w.room);
 	return status;
 }
@@ -264,7 +291,7 @@ static void spread_run(const void *data, size_t node, size_t p, size_t m)
 int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], double *const mesh[])
 {
 	struct nodes w;
-	int status = begin(&w, &t->grid, x);
+	int status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
 	if (x->here)
 		status = spread_ranks(status, t, &w, strength, mesh);
 	else if (!status)
@@ -329,7 +356,7 @@ int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, co
 	const struct pm_target out[], struct pm_strays *strays)
 {
 	struct nodes w;
-	int bad = 0, status = begin(&w, &t->grid, x);
+	int bad = 0, status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
 	const struct gather g = {t, mesh, factor, out, &bad};
 	*strays = (struct pm_strays){.count = 0};
 	if (x->here)

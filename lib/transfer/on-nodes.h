@@ -1,5 +1,5 @@
-/* Particles that all stand on nodes of a periodic mesh, as remesh leaves them: a kernel that interpolates takes from each its node alone, so spread and gather
- * are copies. Private to lib/transfer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particles that all stand on nodes of a mesh, as remesh leaves them, inside its faces: a kernel that interpolates takes from each its node alone, so spread
+ * and gather are copies. Private to lib/transfer. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_ON_NODES_H
 #define PM_TRANSFER_ON_NODES_H
 

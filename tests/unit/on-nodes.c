@@ -1,4 +1,4 @@
-/* Particles on the nodes of a periodic mesh (lib/transfer/on-nodes.c): copies instead of sums have the values of the general loops on a mesh of unit cells,
+/* Particles on the nodes of a mesh (lib/transfer/on-nodes.c): copies instead of sums have the values of the general loops on a mesh of unit cells,
  * where those are exact, and of those on the mesh itself to rounding; and who is not on nodes is found. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -30,8 +30,17 @@ static double *room(size_t n)
 	return p;
 }
 
-/* share: of the nodes that have a particle. */
-static void begin(struct problem *p, int dim, const size_t cells[3], enum pm_face face, const char *kernel, double share)
+/* Is it so far from the faces that no kernel reaches them, or on no face? */
+static bool inside(const struct pm_grid *g, const size_t index[3], size_t margin)
+{
+	bool is = true;
+	for (int d = 0; d < g->dim; d++)
+		is = is && index[d] >= margin && index[d] + margin <= g->cells[d];
+	return is;
+}
+
+/* share: of the nodes that have a particle, of those `margin` nodes inside faces. */
+static void begin(struct problem *p, int dim, const size_t cells[3], enum pm_face face, const char *kernel, double share, size_t margin)
 {
 	*p = (struct problem){.f = pm_frame_new(dim)};
 	for (int d = 0; d < dim; d++)
@@ -42,13 +51,14 @@ static void begin(struct problem *p, int dim, const size_t cells[3], enum pm_fac
 	p->points = pm_grid_size(g);
 	for (int d = 0; d < 3; d++)
 		p->at[d] = room(p->points);
-	for (size_t i = 0; i < p->points; i++)
-		if (random_of(i, 0) + 0.5 < share) {
-			const size_t index[] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
-			for (int d = 0; d < dim; d++)
-				p->at[d][p->n] = (double)index[d];
-			p->n++;
-		}
+	for (size_t i = 0; i < p->points; i++) {
+		const size_t index[] = {i % g->points[0], i / g->points[0] % g->points[1], i / g->points[0] / g->points[1]};
+		if (random_of(i, 0) + 0.5 >= share || !inside(g, index, margin))
+			continue;
+		for (int d = 0; d < dim; d++)
+			p->at[d][p->n] = (double)index[d];
+		p->n++;
+	}
 	pm_frame_set_new(p->f, "matter", p->n);
 	p->x = pm_makes(p->f, "matter", "x", dim, PM_STATE);
 	if (!p->x || pm_frame_ready(p->f))
@@ -86,19 +96,21 @@ static double apart(size_t n, double *const a[], double *const b[])
 	return most;
 }
 
-static void copies(int dim, const size_t cells[3], const char *kernel, double share)
+static void copies(int dim, const size_t cells[3], enum pm_face face, const char *kernel, double share)
 {
+	const size_t margin = face == PM_PERIODIC ? 0 : face == PM_OPEN ? (size_t)pm_kernel_find(kernel)->width / 2 + 1 : 1;
 	struct problem p;
 	struct pm_column q[2], times[2];
 	struct pm_target to[2];
 	struct pm_strays strays;
 	bool on = false;
-	begin(&p, dim, cells, PM_PERIODIC, kernel, share);
+	begin(&p, dim, cells, face, kernel, share, margin);
 	const double cell = pm_grid_cell(&p.t.grid), *x[3];
 	for (int d = 0; d < dim; d++)
 		x[d] = pm_in(p.x, d);
 	const double *const *at = (const double *const *)p.at, *const *density = (const double *const *)p.mesh;
-	check(!pm_on_nodes(&p.t, p.x, &on) && on, "%s, %d-D: %zu particles are on the %zu nodes", kernel, dim, p.n, p.points);
+	check(!pm_on_nodes(&p.t, p.x, &on) && on, "%s, %d-D, %s faces: %zu particles are on the %zu nodes", kernel, dim,
+		pm_face_names[face], p.n, p.points);
 	for (int c = 0; c < 2; c++) {
 		q[c] = pm_column_doubles(p.q[c]), times[c] = c ? pm_column_doubles(p.q[0]) : (struct pm_column){.value = -1.7};
 		to[c] = (struct pm_target){.doubles = p.got[c]};
@@ -123,7 +135,7 @@ static void copies(int dim, const size_t cells[3], const char *kernel, double sh
 	check(strays.finite && !strays.count && !pm_gather(&p.unit, p.n, at, density, by, p.out, &strays) && apart(p.n, p.out, p.got) == 0,
 		"so are the values at the particles, set and added");
 	p.mesh[1][(size_t)p.at[0][p.n - 1] + p.points - p.t.grid.points[0]] = INFINITY; /* the row of the last node */
-	check(share < 1 || (!pm_on_nodes_gather(&p.t, p.x, density, times, to, &strays) && !strays.finite), "infinite values are found");
+	check(share < 1 || margin || (!pm_on_nodes_gather(&p.t, p.x, density, times, to, &strays) && !strays.finite), "infinite values are found");
 	p.t.grid.lo[0] += p.t.grid.h[0] / 4;
 	check(!pm_on_nodes(&p.t, p.x, &on) && !on, "they are not on those of another mesh");
 	pm_free(factor);
@@ -131,11 +143,11 @@ static void copies(int dim, const size_t cells[3], const char *kernel, double sh
 }
 
 /* what: changes the positions. */
-static void apart_from(const char *why, enum pm_face face, const char *kernel, void what(struct problem *))
+static void apart_from(const char *why, enum pm_face face, size_t margin, const char *kernel, void what(struct problem *))
 {
 	struct problem p;
 	bool on = true;
-	begin(&p, 2, (const size_t[]){200, 170, 1}, face, kernel, 1);
+	begin(&p, 2, (const size_t[]){200, 170, 1}, face, kernel, 1, margin);
 	p.x->use = PM_USE_CHANGE;
 	if (pm_field_ready(p.x))
 		exit(1);
@@ -158,22 +170,28 @@ static void double_up(struct problem *p)
 	for (int d = 0; d < 2; d++)
 		pm_out(p->x, d)[4096] = pm_out(p->x, d)[4095];
 }
+static void to_face(struct problem *p) { pm_out(p->x, 0)[p->n - 1] = p->t.grid.lo[0] + (double)p->t.grid.cells[0] * p->t.grid.h[0]; }
+static void widen_rim(struct problem *p) { p->t.rim = 1; }
 static void stagger(struct problem *p) { p->t.staggered[1][1] = 1; }
 
 int main(void)
 {
 	static const char *const kernels[] = {"ngp", "cic", "m4prime", "m6prime", "lambda-8-4"};
 	for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++) {
-		copies(1, (const size_t[]){5001, 1, 1}, kernels[k], 0.7);
-		copies(2, (const size_t[]){203, 171, 1}, kernels[k], 1);
-		copies(2, (const size_t[]){203, 171, 1}, kernels[k], 0.9);
-		copies(3, (const size_t[]){39, 33, 18}, kernels[k], 0.3);
+		copies(1, (const size_t[]){5001, 1, 1}, PM_PERIODIC, kernels[k], 0.7);
+		copies(2, (const size_t[]){203, 171, 1}, PM_PERIODIC, kernels[k], 1);
+		copies(2, (const size_t[]){203, 171, 1}, PM_OPEN, kernels[k], 0.9);
+		copies(2, (const size_t[]){57, 131, 1}, PM_NEUMANN, kernels[k], 0.9);
+		copies(3, (const size_t[]){39, 33, 18}, PM_PERIODIC, kernels[k], 0.3);
+		copies(3, (const size_t[]){39, 33, 28}, PM_WALL, kernels[k], 0.9);
 	}
-	apart_from("a particle is beside its node", PM_PERIODIC, "m6prime", nudge);
-	apart_from("two have changed places", PM_PERIODIC, "m6prime", exchange);
-	apart_from("two are on one node", PM_PERIODIC, "m6prime", double_up);
-	apart_from("a component is half a cell up", PM_PERIODIC, "m6prime", stagger);
-	apart_from("the kernel does not interpolate", PM_PERIODIC, "tsc", NULL);
-	apart_from("the box has walls", PM_WALL, "m6prime", NULL);
+	apart_from("a particle is beside its node", PM_PERIODIC, 0, "m6prime", nudge);
+	apart_from("two have changed places", PM_PERIODIC, 0, "m6prime", exchange);
+	apart_from("two are on one node", PM_PERIODIC, 0, "m6prime", double_up);
+	apart_from("a component is half a cell up", PM_PERIODIC, 0, "m6prime", stagger);
+	apart_from("the kernel does not interpolate", PM_PERIODIC, 0, "tsc", NULL);
+	apart_from("one is on a wall", PM_WALL, 1, "m6prime", to_face);
+	apart_from("kernels reach an open face", PM_OPEN, 3, "m6prime", NULL);
+	apart_from("there is a rim beside open faces", PM_OPEN, 4, "m6prime", widen_rim);
 	return check_done();
 }
