@@ -146,14 +146,19 @@ PM_SIMD_INLINE void pm_simd_transpose(pm_simd_part *r)
 {
 #if defined __AVX512F__
 	pm_simd t[8], u[8];
+	PM_SIMD_UNROLL
 	for (int i = 0; i < 8; i += 2) {
 		t[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
 		t[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
 	}
-	for (int i = 0; i < 8; i += i & 1 ? 3 : 1) {
-		u[i] = __builtin_shufflevector(t[i], t[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-		u[i + 2] = __builtin_shufflevector(t[i], t[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-	}
+	PM_SIMD_UNROLL
+	for (int i = 0; i < 8; i += 4) /* gcc unrolls loops with a constant step; else the rows go through memory */
+		PM_SIMD_UNROLL
+		for (int k = i; k < i + 2; k++) {
+			u[k] = __builtin_shufflevector(t[k], t[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+			u[k + 2] = __builtin_shufflevector(t[k], t[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+		}
+	PM_SIMD_UNROLL
 	for (int i = 0; i < 4; i++) {
 		r[i] = __builtin_shufflevector(u[i], u[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
 		r[i + 4] = __builtin_shufflevector(u[i], u[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
