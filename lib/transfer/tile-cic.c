@@ -306,6 +306,10 @@ bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *bat
 		const struct eight e = find_eight(t, batch, i);
 		const struct rows rows = rows_of(&e);
 		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
+		if (t->components == 1) { /* not in the loop, before which gcc works out the addresses of eight particles and keeps them in memory */
+			deliver_eight(value_of(&rows, component(t, 0)), n, &to[0], p, &nothing);
+			continue;
+		}
 		for (int c = 0; c < t->components; c++)
 			deliver_eight(value_of(&rows, component(t, c)), n, &to[c], p, &nothing);
 	}

@@ -102,6 +102,10 @@ bool pm_tile_plane_gather(const struct pm_tile *t, const struct pm_tile_batch *b
 		const struct eight e = find_eight_of(2, t, b, i);
 		int32_t at[PM_SIMD_WIDTH];
 		points_of(&e, at);
+		if (t->components == 1) { /* not in the loop: see tile-cic.c */
+			deliver_eight(value_of(&e, at, t->block), n, &to[0], b->p + i, &nothing);
+			continue;
+		}
 		for (int c = 0; c < t->components; c++)
 			deliver_eight(value_of(&e, at, t->block + (size_t)c * PM_BLOCK_MOST), n, &to[c], b->p + i, &nothing);
 	}

@@ -65,20 +65,26 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	}
 }
 
+/* Doubles from block to block, whole lines of the cache: those of all threads, in the plane a quarter of the most, are to stay in it. */
+static size_t doubles_of_block(int dim)
+{
+	return ((size_t)pm_block_row[dim] * (size_t)pm_block_rows[dim] * (size_t)pm_block_planes[dim] + 7) / 8 * 8;
+}
+
 /* Jobs are done in waves: every thread fills blocks of the wave, then adds to its own mesh lines from all blocks in order. */
 static void spread_component(const struct pm_pass *w, int value, int threads, double *mesh)
 {
 	const struct pm_axis *a = w->o->axes;
 	const struct pm_tile_target to_mesh = {.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[value]], .scale = 1 / pm_grid_cell(&w->t->grid)};
-	size_t under_way = pm_tile_under_way(threads);
+	const size_t under_way = pm_tile_under_way(threads), block = doubles_of_block(w->t->grid.dim);
 #pragma omp parallel num_threads(threads)
 	for (size_t from = 0; from < w->p.jobs; from += under_way) {
 		size_t to = w->p.jobs - from < under_way ? w->p.jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
 		for (size_t j = from; j < to; j++)
-			pm_pass_spread(w, &w->p.job[j], value, w->blocks + (j - from) * PM_BLOCK_MOST);
+			pm_pass_spread(w, &w->p.job[j], value, w->blocks + (j - from) * block);
 		for (size_t j = from; j < to; j++)
-			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * PM_BLOCK_MOST, mesh);
+			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * block, mesh);
 #pragma omp barrier
 	}
 }
@@ -275,12 +281,12 @@ bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w)
 	return w->components > 0;
 }
 
-/* Blocks for at most `at_once` jobs of `each` components. */
-static int begin_pass(struct pm_pass *w, size_t at_once, size_t each)
+/* Blocks for at most `at_once` jobs, of so many doubles each. */
+static int begin_pass(struct pm_pass *w, size_t at_once, size_t doubles)
 {
 	int status = w->o ? pm_tile_pass_init(&w->p, &w->t->grid, &w->o->order, w->o->axes) : -PM_DATA;
 	at_once = at_once < w->p.jobs ? at_once : w->p.jobs;
-	w->blocks = status ? NULL : pm_zalloc(at_once * each * PM_BLOCK_MOST, sizeof *w->blocks);
+	w->blocks = status ? NULL : pm_zalloc(at_once * doubles, sizeof *w->blocks);
 	return w->blocks ? 0 : -PM_DATA;
 }
 
@@ -291,7 +297,7 @@ static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[],
 	for (int c = 0; c < w->components; c++)
 		values[c] = strength[w->which[c]];
 	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0);
-	return begin_pass(w, pm_tile_under_way(threads), 1);
+	return begin_pass(w, pm_tile_under_way(threads), doubles_of_block(w->t->grid.dim));
 }
 
 int pm_pass_corners(struct pm_pass *w, int threads, size_t cells)
@@ -337,7 +343,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const struct pm_column x[],
 		return -PM_DATA;
 	if (records && w->components > w->o->order.stride && !(w->results = pm_alloc(n * (size_t)w->components, sizeof *w->results)))
 		return -PM_DATA;
-	int status = begin_pass(w, (size_t)threads, (size_t)w->components);
+	int status = begin_pass(w, (size_t)threads, (size_t)w->components * PM_BLOCK_MOST);
 	return status || !PM_TILE_CIC_EIGHT ? status : pm_pass_vectors(w, threads);
 }
 
