@@ -226,6 +226,13 @@ int main(void)
 		w.transfer.kernel = pm_kernel_find(k ? "tsc" : "cic");
 		snprintf(name, sizeof name, "m2p of E and B, %s", w.transfer.kernel->name), run(&w, name, "particle", POINTS, light);
 	}
+	for (int d = 0; d < 3; d++) /* 64 particles a cell */
+		g.cells[d] = g.points[d] = CELLS / 4, g.h[d] = 4;
+	w.transfer.grid = g;
+	for (int k = 0; k < 2; k++) {
+		w.transfer.kernel = pm_kernel_find(k ? "tsc" : "cic"), w.transfer.lower = pm_kernel_lower(w.transfer.kernel);
+		snprintf(name, sizeof name, "m2p --energy-conserving, %s", w.transfer.kernel->name), run(&w, name, "particle", POINTS, light);
+	}
 	on_a_line(&w);
 	by_cells(&w);
 	return 0;
