@@ -5,7 +5,7 @@
 
 #include "far/pp.h"
 #include "mesh/gradient.h"
-#include "transfer/current.h"
+#include "current/current.h"
 #include "transfer/transfer.h"
 #include "poisson-fft/poisson-fft.h"
 #include "poisson-mg/mg.h"

@@ -1,6 +1,6 @@
 /* p2m: strengths of particles to a density on a mesh, or their current (lib/transfer). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage/mesh-options.h"
-#include "transfer/current-frame.h"
+#include "current/current-frame.h"
 
 struct config {
 	struct pm_spread_choice spread;

@@ -1,4 +1,4 @@
-/* The staggered gather a few particles at a time, for a pass that makes their rates itself. Private to lib/transfer.
+/* The staggered gather a few particles at a time, for a pass that makes their rates itself. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_GATHER_STAGGERED_H
 #define PM_TRANSFER_GATHER_STAGGERED_H

@@ -1,4 +1,4 @@
-/* The weights of a kernel on all axes of a particle together, an axis a lane. Private to lib/transfer.
+/* The weights of a kernel on all axes of a particle together, an axis a lane. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_BY_AXIS_H
 #define PM_TRANSFER_TILE_BY_AXIS_H

@@ -1,4 +1,4 @@
-/* Particles in the order of tiles of cells. Private to lib/transfer.
+/* Particles in the order of tiles of cells. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_ORDER_H
 #define PM_TRANSFER_TILE_ORDER_H

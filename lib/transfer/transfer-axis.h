@@ -1,4 +1,4 @@
-/* One axis of a transfer: the position of a particle on it, and the mesh points around it. Private to lib/transfer.
+/* One axis of a transfer: the position of a particle on it, and the mesh points around it. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_AXIS_H
 #define PM_TRANSFER_AXIS_H
@@ -29,7 +29,7 @@ struct pm_axis {
 int pm_axes_init(struct pm_axis axes[3], const struct pm_transfer *t, const unsigned char staggered[3]);
 void pm_axes_free(struct pm_axis axes[3]);
 
-/* The axes of the ways of particles (current.c), which begin in a cell and end there or in one beside it: there is one slot more above, and one below, so
+/* The axes of the ways of particles (lib/current), which begin in a cell and end there or in one beside it: there is one slot more above, and one below, so
  * that cell c has the slots c + 1..c + width. `nodes` for components on the nodes and to locate, `halves` with the same slots for components half a cell up.
  * Beyond an open face there are slots that are not on the mesh, for particles up to `beyond` cells outside: as far as their kernel reaches, and a cell to
  * spare. 0 or failure; free both in any case. */

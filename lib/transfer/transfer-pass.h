@@ -1,4 +1,4 @@
-/* One pass of a transfer over the jobs of its tiles: what transfer.c and transfer-ranks.c share. Private to lib/transfer.
+/* One pass of a transfer over the jobs of its tiles: what transfer.c and transfer-ranks.c share. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_PASS_H
 #define PM_TRANSFER_PASS_H

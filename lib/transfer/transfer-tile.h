@@ -1,4 +1,4 @@
-/* The work on one tile: particles to a block of mesh points and back. Private to lib/transfer.
+/* The work on one tile: particles to a block of mesh points and back. For lib/transfer and lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_H
 #define PM_TRANSFER_TILE_H

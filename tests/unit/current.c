@@ -5,7 +5,7 @@
 
 #include "check.h"
 #include "mesh/particle-faces.h"
-#include "transfer/current.h"
+#include "current/current.h"
 
 enum { N = 3000, MANY = 18000 };
 

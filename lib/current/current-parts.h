@@ -1,10 +1,10 @@
-/* What the current of a run alone and of several ranks share: the blocks of a job, where they go, the ways as records. Private to lib/transfer.
+/* What the current of a run alone and of several ranks share: the blocks of a job, where they go, the ways as records. Private to lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TRANSFER_CURRENT_PARTS_H
-#define PM_TRANSFER_CURRENT_PARTS_H
+#ifndef PM_CURRENT_PARTS_H
+#define PM_CURRENT_PARTS_H
 
-#include "transfer/current-cells.h"
-#include "transfer/current.h"
+#include "current/current-cells.h"
+#include "current/current.h"
 #include "transfer/transfer-pass.h"
 
 /* Velocities of a few particles of a job, m <= PM_TILE_ORDER_PACK from p on in order, made before they are used; u[dim] and way[dim] are their ways as

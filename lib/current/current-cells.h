@@ -1,7 +1,7 @@
-/* Esirkepov's current as sums of cells. Private to lib/transfer.
+/* Esirkepov's current as sums of cells. Private to lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TRANSFER_CURRENT_CELLS_H
-#define PM_TRANSFER_CURRENT_CELLS_H
+#ifndef PM_CURRENT_CELLS_H
+#define PM_CURRENT_CELLS_H
 
 #include "transfer/tile-order.h"
 

@@ -1,7 +1,7 @@
-/* Esirkepov's current of the ways in one tile. Private to lib/transfer.
+/* Esirkepov's current of the ways in one tile. Private to lib/current.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TRANSFER_CURRENT_TILE_H
-#define PM_TRANSFER_CURRENT_TILE_H
+#ifndef PM_CURRENT_TILE_H
+#define PM_CURRENT_TILE_H
 
 #include "transfer/transfer-tile.h"
 

@@ -4,7 +4,7 @@
  * on every axis has a window of width points (of up to four), any other one of width + 1. The weights of all axes are found together, an axis a lane.
  * Source: Esirkepov 2001, Computer Physics Communications 135, 144. Cost: 3 width^dim products a particle, or 3 (width + 1)^dim.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "transfer/current-tile.h"
+#include "current/current-tile.h"
 #include "transfer/tile-by-axis.h"
 
 enum { room = lanes };

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "transfer/current-parts.h"
+#include "current/current-parts.h"
 #include "world/world.h"
 
 /* Beginnings of the first pieces, behind them those of the further ones, of all ranks, from their numbers here; ranks + 1 each. */

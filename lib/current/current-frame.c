@@ -7,9 +7,9 @@
 #include "mesh/planes.h"
 #include "stream/declare.h"
 #include "stream/later.h"
-#include "transfer/current-frame.h"
-#include "transfer/current-parts.h"
-#include "transfer/current-pass.h"
+#include "current/current-frame.h"
+#include "current/current-parts.h"
+#include "current/current-pass.h"
 #include "world/world.h"
 
 static const char *const name = "J";

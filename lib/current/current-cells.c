@@ -3,7 +3,7 @@
  * along y and z. They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. The other ways are left
  * to current-tile.c. Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of
  * an operation each. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "transfer/current-cells.h"
+#include "current/current-cells.h"
 #include "transfer/tile-by-axis.h"
 
 int pm_current_cells_new(struct pm_current_cells **to, int threads, int dim, const struct pm_kernel *k)

@@ -10,8 +10,8 @@
 #include "law/law.h"
 #include "stream/field-value.h"
 #include "stream/later.h"
-#include "transfer/current-parts.h"
-#include "transfer/current-pass.h"
+#include "current/current-parts.h"
+#include "current/current-pass.h"
 #include "transfer/gather-later.h"
 #include "transfer/gather-staggered.h"
 

@@ -6,7 +6,7 @@
  * Cost: one pass; pieces beyond the first are made by one thread. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "transfer/current-parts.h"
+#include "current/current-parts.h"
 #include "transfer/transfer-axis.h"
 
 /* One particle on its way. */

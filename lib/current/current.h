@@ -1,6 +1,6 @@
 /* The current of particles on their way through one step (docs/methods/maxwell.md). SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TRANSFER_CURRENT_H
-#define PM_TRANSFER_CURRENT_H
+#ifndef PM_CURRENT_H
+#define PM_CURRENT_H
 
 #include "transfer/transfer.h"
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "mesh/particle-faces.h"
-#include "transfer/current-parts.h"
-#include "transfer/current-tile.h"
+#include "current/current-parts.h"
+#include "current/current-tile.h"
 #include "world/world.h"
 
 const char *const pm_deposit_names[] = {"esirkepov", "villasenor-buneman", "direct", NULL};

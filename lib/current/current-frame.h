@@ -1,8 +1,8 @@
 /* The current of a frame's charges on its mesh; used by p2m --current. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PM_TRANSFER_CURRENT_FRAME_H
-#define PM_TRANSFER_CURRENT_FRAME_H
+#ifndef PM_CURRENT_FRAME_H
+#define PM_CURRENT_FRAME_H
 
-#include "transfer/current.h"
+#include "current/current.h"
 #include "transfer/spread-frame.h"
 
 /* The choice applied to a frame. */
