@@ -23,7 +23,7 @@ static int begin(struct pm_stage *s)
 	if (o->mask && (o->changes || o->outside))
 		return pm_fail(PM_USAGE, "--mask excludes --changes and --outside (beside faces and bodies kernels are one-sided; beyond is refused)");
 	if (o->energy && (o->mask || o->changes || o->field || o->outside))
-		return pm_fail(PM_USAGE, "--energy-conserving excludes --mask, --changes, --field and --outside (it is the force of the law's potential)");
+		return pm_fail(PM_USAGE, "--energy-conserving excludes --mask, --changes, --field and --outside (it is the law's force alone)");
 	return o->changes && o->field ? pm_fail(PM_USAGE, "--changes or --field, not both: the changes are what is carried") : 0;
 }
 

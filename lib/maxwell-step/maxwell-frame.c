@@ -97,6 +97,14 @@ static int check_faces(const struct pm_frame *f, const struct pm_maxwell_job *j)
 	return 0;
 }
 
+/* E and B are gathered with the kernel that their source was deposited with. */
+static void take_kernel(struct pm_maxwell_job *j, struct pm_field *b, const struct pm_field *source)
+{
+	snprintf(j->e->kernel, sizeof j->e->kernel, "%s", source->kernel);
+	if (b)
+		snprintf(b->kernel, sizeof b->kernel, "%s", source->kernel);
+}
+
 static int check_step(const struct pm_frame *f, const struct pm_maxwell_job *j)
 {
 	const double limit = j->method->limit(&j->yee.grid), now = j->yee.c * fabs(f->dt);
@@ -124,8 +132,7 @@ static int declare_advance(struct pm_frame *f, struct pm_maxwell_job *j, const s
 		return -PM_DATA;
 	j->j = current;
 	if (current) {
-		snprintf(j->e->kernel, sizeof j->e->kernel, "%s", current->kernel); /* for m2p */
-		snprintf(j->b->kernel, sizeof j->b->kernel, "%s", current->kernel);
+		take_kernel(j, j->b, current);
 		pm_drops(f, current);
 	}
 	return take_memory(f, j);
@@ -159,6 +166,8 @@ int pm_maxwell_declare(const struct pm_maxwell_choice *choice, struct pm_frame *
 		return -PM_DATA; /* zeros, so that boris has what it needs */
 	if (choice->gauss) {
 		j->rho = pm_reads(f, j->mesh->name, law->density);
+		if (j->rho && !*j->e->kernel && !j->rho->interlaced && strcmp(j->rho->kernel, "several")) /* else as the currents before */
+			take_kernel(j, pm_frame_field(f, j->mesh->name, law->magnetic), j->rho);
 		return j->rho ? 0 : pm_fail(PM_DATA, "no density '%s' on mesh '%s' (p2m makes it)", law->density, j->mesh->name);
 	}
 	j->b = take(f, j, law->magnetic, false, true);

@@ -592,14 +592,18 @@ int pm_field_permute(struct pm_field *field, const size_t *order)
 		return pm_held_free(old), -PM_DATA;
 	pm_limits_add(field, (struct pm_limits){.oscillation = pm_limits_of(field).oscillation}); /* other values, and the limit stays */
 	const int status = pm_field_hold(field);
+	for (int c = 0; c < field->components && !status; c++) {
+		const void *from = size == 1 ? (const void *)pm_in_u8(old, c) : (const void *)pm_in(old, c); /* eight bytes of either kind */
+		void *to = size == 1 ? (void *)pm_out_u8(field, c) : (void *)pm_out(field, c);
 #pragma omp parallel for schedule(static) if (n > 16384)
-	for (size_t p = 0; p < (status ? 0 : n); p += permuted_together) { /* of all components, with one reading of the order */
-		const size_t m = n - p < permuted_together ? n - p : permuted_together, ahead = p + 2 * permuted_together <= n ? permuted_together / 2 : 0;
-		for (int c = 0; c < field->components; c++)
+		for (size_t p = 0; p < n; p += permuted_together) {
+			const size_t m = n - p < permuted_together ? n - p : permuted_together;
+			const size_t ahead = p + 2 * permuted_together <= n ? permuted_together / 2 : 0;
 			if (size == 1)
-				take_bytes(m, pm_in_u8(old, c), order + p, pm_out_u8(field, c) + p);
-			else /* eight bytes of either kind */
-				take(m, ahead, (const void *)pm_in(old, c), order + p, (void *)(pm_out(field, c) + p));
+				take_bytes(m, from, order + p, (unsigned char *)to + p);
+			else
+				take(m, ahead, from, order + p, (uint64_t *)to + p);
+		}
 	}
 	pm_held_free(old);
 	field->use |= finite && !status ? PM_USE_SEEN : 0;

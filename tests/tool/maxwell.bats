@@ -152,3 +152,11 @@ residual() { p2m "$@" | maxwell --gauss | sls --report | grep -o '"residual":[-0
 	run -1 --separate-stderr bash -c 'sel --drop E <a1 | maxwell --marder 2'
 	[[ $stderr == *"no field 'E'"* ]]
 }
+
+@test "maxwell --gauss: E and B take the kernel of rho, so that the first m2p of a run does; where currents made them they keep theirs" {
+	pinit em-wave --dim 2 --cells 8 -n 9 --no-history | p2m --kernel tsc | maxwell --gauss >a
+	cmp <(m2p --no-history a) <(m2p --no-history --kernel tsc a)
+	cycle -q -n 1 'push boris/2 | p2m --current --kernel tsc | maxwell | push drift | m2p | push boris/2' <a | p2m --kernel cic | maxwell --gauss |
+		push clear >b
+	cmp <(m2p --no-history b) <(m2p --no-history --kernel tsc b)
+}
