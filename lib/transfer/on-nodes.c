@@ -63,7 +63,7 @@ static int begin(struct nodes *w, const struct pm_field *x)
 	for (int d = 0; d < 3; d++) {
 		w->at[d] = d ? w->at[d - 1] + g->points[d - 1] : w->room;
 		w->x[d] = d < g->dim ? pm_in(x, d) : NULL;
-		for (int i = 0; i < (int)g->points[d]; i++)
+		for (size_t i = 0; i < g->points[d]; i++)
 			w->at[d][i] = g->lo[d] + (double)i * g->h[d];
 	}
 	return 0;
@@ -223,8 +223,7 @@ int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on)
 struct unit {
 	struct pm_transfer t;
 	double *room;
-	const double *x[3];
-	double *values[PM_COMPONENTS];
+	double *x[3], *values[PM_COMPONENTS];
 };
 
 static void keep_indices(const void *data, size_t node, size_t p, size_t m)
@@ -233,7 +232,7 @@ static void keep_indices(const void *data, size_t node, size_t p, size_t m)
 	const size_t *points = u->t.grid.points, i = node % points[0], at[] = {0, node / points[0] % points[1], node / points[0] / points[1]};
 	for (int d = 0; d < u->t.grid.dim; d++)
 		for (size_t k = 0; k < m; k++)
-			((double *)(uintptr_t)u->x[d])[p + k] = (double)(d ? at[d] : i + k);
+			u->x[d][p + k] = (double)(d ? at[d] : i + k);
 }
 
 static int begin_unit(struct unit *u, const struct pm_transfer *t, const struct nodes *w)
@@ -261,7 +260,7 @@ static int spread_ranks(int status, const struct pm_transfer *t, const struct no
 	for (int c = 0; c < t->components && !status; c++)
 		for (size_t p = 0; p < w->n; p++)
 			u.values[c][p] = pm_column_at(&strength[c], p) * scale;
-	status = status ? status : pm_spread(&u.t, w->n, u.x, (const double *const *)u.values, mesh, &strays);
+	status = status ? status : pm_spread(&u.t, w->n, (const double *const *)u.x, (const double *const *)u.values, mesh, &strays);
 	pm_free(u.room);
 	return status;
 }
@@ -345,7 +344,7 @@ static int gather_ranks(int status, const struct nodes *w, const double *const m
 	struct pm_strays strays;
 	struct unit u = {.room = NULL};
 	status = pm_world_agree(status ? status : begin_unit(&u, g->t, w));
-	status = status ? status : pm_gather(&u.t, w->n, u.x, mesh, NULL, u.values, &strays);
+	status = status ? status : pm_gather(&u.t, w->n, (const double *const *)u.x, mesh, NULL, u.values, &strays);
 	for (int c = 0; c < g->t->components && !status; c++)
 		*g->bad |= !take(g, c, u.values[c], 0, w->n);
 	pm_free(u.room);

@@ -5,18 +5,20 @@
 #include "transfer/staggered-nodes.h"
 #include "transfer/tile-by-axis.h"
 
-enum { fours = 4, numbers = 20, row_of = 32, plane_of = 16 }; /* row_of..: cells of a tile */
+enum { fours = 4, numbers = 20 };
+_Static_assert((int)numbers * (int)PM_TILE_CELLS <= (int)PM_STAGGERED_NODES, "");
 typedef pm_by_axis four; /* of four particles */
 typedef int32_t four_int __attribute__((vector_size(fours * sizeof(int32_t))));
 
 void pm_staggered_fill_cells(const double *blocks, const size_t slots[3], double *cells)
 {
 	const size_t y_up = (size_t)pm_block_row[3], z_up = y_up * (size_t)pm_block_rows[3], b = PM_BLOCK_MOST;
-	for (size_t z = 0; z + 1 < slots[2] && z < 8; z++)
-		for (size_t y = 0; y + 1 < slots[1] && y < plane_of; y++)
-			for (size_t x = 0; x + 1 < slots[0] && x < row_of; x++) {
+	const int *shift = pm_tile_shift[3];
+	for (size_t z = 0; z + 1 < slots[2] && !(z >> shift[2]); z++)
+		for (size_t y = 0; y + 1 < slots[1] && !(y >> shift[1]); y++)
+			for (size_t x = 0; x + 1 < slots[0] && !(x >> shift[0]); x++) {
 				const double *e = blocks + z * z_up + y * y_up + x;
-				double *to = cells + ((z * plane_of + y) * row_of + x) * numbers;
+				double *to = cells + ((((z << shift[1]) + y) << shift[0]) + x) * numbers;
 				const double row[numbers] = {e[0], e[y_up], e[z_up], e[z_up + y_up], e[b], e[b + 1], e[b + z_up], e[b + z_up + 1],
 					e[2 * b], e[2 * b + 1], e[2 * b + y_up], e[2 * b + y_up + 1], e[3 * b], e[3 * b + 1], e[4 * b], e[4 * b + y_up],
 					e[5 * b], e[5 * b + z_up]};
@@ -30,6 +32,7 @@ PM_SIMD_INLINE four linear(four a, four b, four below, four u) { return 0 + a * 
 
 void pm_staggered_gather_cells(const struct pm_staggered_tile *t)
 {
+	const int *shift = pm_tile_shift[3];
 	double *const results = t->results;
 	for (size_t i = 0; i < t->count; i += fours) {
 		four part[3], below[3], n[numbers];
@@ -38,7 +41,7 @@ void pm_staggered_gather_cells(const struct pm_staggered_tile *t)
 			pm_simd4_int_at cell;
 			part[d] = (four)pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell); /* u >= 0 */
 			below[d] = 1 - part[d];
-			at += (cell - (int32_t)t->cell[d]) * (d == 0 ? numbers : d == 1 ? numbers * row_of : numbers * row_of * plane_of);
+			at += (cell - (int32_t)t->cell[d]) * (numbers << (d > 0 ? shift[0] : 0) << (d > 1 ? shift[1] : 0));
 		}
 		const size_t last = t->count - i - 1;
 		for (int l = 0; l < fours; l++) { /* the last one again where there are fewer */
