@@ -209,7 +209,7 @@ $(unit): $(B)/%: $(B)/%.o $(B)/libwhole.so
 $(B)/bench/h5-datasets.o: CFLAGS_ALL += $(h5_include)
 $(B)/bench/h5-datasets: LDLIBS_PROGRAM += $(h5_libs)
 # Of the library no more than these loops need: half of it, for a check that is to be quick.
-counts_rooms := base far fft green green-parts james kernel mesh mollifier poisson poisson-fft poisson-mg push step step-parts stream transfer world
+counts_rooms := base current far fft green green-parts james kernel mesh mollifier poisson poisson-fft poisson-mg push step step-parts stream transfer world
 counts_obj := $(foreach r,$(counts_rooms),$(filter $(B)/lib/$(r)/%.o,$(lib_obj))) $(patsubst %,$(B)/tables/%.o,green kernel law mollifier step)
 $(B)/counts.a: $(counts_obj)
 	@rm -f $@
