@@ -39,7 +39,8 @@ static bool tries(const struct pm_frame *f, struct pm_plan *p, const struct choi
 	return true;
 }
 
-/* With light: is energy kept by m2p --energy-conserving? It is for Yee's mesh; a beam near the speed of light would radiate more with short steps. */
+/* With light: is energy kept by m2p --energy-conserving? It is for Yee's mesh; a beam near the speed of light would radiate more with short
+ * steps (docs/methods/maxwell.md), so that it keeps m2p. */
 static bool keeps_energy(const struct pm_frame *f, const struct pm_plan *p)
 {
 	const struct pm_field *e = p->scales.light ? pm_frame_field(f, f->meshes[0]->name, p->law->field) : NULL;

@@ -1,4 +1,4 @@
-/* Eight particles of a tile at a time (four, where a register holds no more), for cic in 3-D: from records or from the stream, to records or to the stream.
+/* Eight particles of a tile at a time (four, where a register holds no more), for cic: from records or from the stream, to records or to the stream.
  * Private to lib/transfer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_EIGHT_H
@@ -146,6 +146,23 @@ PM_SIMD_INLINE void deliver_eight(pm_simd v, size_t n, const struct delivery *d,
 		to[l] = d->set ? value : to[l] + value;
 		*nothing += to[l] - to[l];
 	}
+}
+
+/* The two points of a row that begin at at[] of each particle. */
+PM_SIMD_INLINE void load_pairs(const double *block, const int32_t *at, pm_simd *low, pm_simd *high)
+{
+	pm_simd4_at lows[PM_SIMD_WIDTH / 4], highs[PM_SIMD_WIDTH / 4];
+	PM_SIMD_UNROLL
+	for (size_t four = 0; four < PM_SIMD_WIDTH / 4; four++) {
+		const double *from[4];
+		pm_simd4_at pair[2];
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < 4; l++)
+			from[l] = block + (size_t)(uint32_t)at[4 * four + l];
+		pm_simd4_pairs(from, 0, pair);
+		lows[four] = pair[0], highs[four] = pair[1];
+	}
+	*low = pm_simd_of_fours(lows), *high = pm_simd_of_fours(highs);
 }
 
 #endif

@@ -64,23 +64,6 @@ void pm_tile_plane_spread_records(const struct pm_tile *t)
 	}
 }
 
-/* The two points of a row for each. */
-PM_SIMD_INLINE void load_pairs(const double *block, const int32_t *at, pm_simd *low, pm_simd *high)
-{
-	pm_simd4_at lows[PM_SIMD_WIDTH / 4], highs[PM_SIMD_WIDTH / 4];
-	PM_SIMD_UNROLL
-	for (size_t four = 0; four < PM_SIMD_WIDTH / 4; four++) {
-		const double *from[4];
-		pm_simd4_at pair[2];
-		PM_SIMD_UNROLL
-		for (size_t l = 0; l < 4; l++)
-			from[l] = block + (size_t)(uint32_t)at[4 * four + l];
-		pm_simd4_pairs(from, 0, pair);
-		lows[four] = pair[0], highs[four] = pair[1];
-	}
-	*low = pm_simd_of_fours(lows), *high = pm_simd_of_fours(highs);
-}
-
 PM_SIMD_INLINE pm_simd value_of(const struct eight *e, const int32_t *at, const double *block)
 {
 	const pm_simd x = e->distance[0], y = e->distance[1];
