@@ -1,6 +1,6 @@
 /* Aligned memory with huge pages for large blocks, and a small cache of freed large blocks: a time step allocates the same sizes again and again, and the
- * first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The cache holds no more bytes than were recently in use at a time, so
- * that a run with changing sizes (one that loses particles) uses at most twice the memory it needs. SPDX-License-Identifier: GPL-3.0-or-later */
+ * first touch of fresh pages costs more than most kernels (2.6 GB/s with 4 KiB pages). The cache holds 4 MB, or no more bytes than were recently in use at a
+ * time, so that a run with changing sizes (one that loses particles) uses at most twice the memory it needs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <malloc.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "base/base.h"
 
 enum { kept = 1 << 16, large = 1 << 20, huge = 2 << 20, head = 64 }; /* bytes from which blocks go to the shelf, and have huge pages */
-enum { shelf_size = 32, spell = 256 };                              /* blocks; requests */
+enum { shelf_size = 32, spell = 256, spare = 4 << 20 };             /* blocks; requests; bytes that may always be kept */
 
 struct block {
 	size_t bytes; /* of the whole block, this head included */
@@ -52,6 +52,7 @@ static int shelf_trim(struct block *out[shelf_size])
 {
 	size_t bound = most[0] > most[1] ? most[0] : most[1];
 	int n = 0;
+	bound = bound > spare ? bound : spare;
 	while (shelved && (shelved == shelf_size || idle > bound))
 		out[n++] = off_shelf(shelved - 1);
 	return n;

@@ -59,9 +59,16 @@ static double *result_row(const struct rows *r, size_t j, size_t k)
 	return phi + p->line[X].first;
 }
 
+/* Threads worth waking for the three passes of a solve. */
+static int threads_for(const struct pm_poisson_fft *p)
+{
+	enum { few = 40000 };
+	return p->modes[Y] * p->slab < few ? 1 : pm_threads();
+}
+
 static int scratch_ready(struct pm_poisson_fft *p)
 {
-	int n = pm_threads();
+	int n = threads_for(p);
 	if (n <= p->threads)
 		return p->threads = n, 0;
 	p->scratch = pm_free(p->scratch);

@@ -59,6 +59,9 @@ static void memory(void)
 	check(pm_memory_idle() <= (64 << 20) + head, "freed blocks of many sizes: no more bytes are kept than were in use at a time");
 	pm_memory_release();
 	check(pm_memory_idle() == 0, "freed blocks are given back to the system on request");
+	pm_free(pm_alloc(300 << 10, 1)), pm_free(pm_alloc(1 << 20, 1));
+	check(pm_memory_idle() > (2 << 20) + (200 << 10), "blocks of less than 4 MB together stay, also where they are never in use at the same time");
+	pm_memory_release();
 	void *a = pm_alloc(7 << 20, 1), *b = pm_alloc(9 << 20, 1), *was = a;
 	pm_free(a), pm_free(b);
 	a = pm_alloc(7 << 20, 1);
