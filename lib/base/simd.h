@@ -5,6 +5,7 @@
 #define PM_BASE_SIMD_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -336,7 +337,22 @@ PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
 #endif
 }
 
-/* The same for four. */
+/* True if all lanes are n. */
+PM_SIMD_INLINE bool pm_simd_int_all(pm_simd_int v, int32_t n)
+{
+#ifdef __AVX512VL__
+	return !_mm256_cmpneq_epi32_mask((__m256i)v, _mm256_set1_epi32(n));
+#elif defined PM_SIMD_FOUR && defined __SSE2__
+	return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)v, _mm_set1_epi32(n))) == 0xffff;
+#else
+	bool all = true;
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		all &= v[l] == n;
+	return all;
+#endif
+}
+
+/* The split of four. */
 PM_SIMD_INLINE pm_simd4_at pm_simd4_split(pm_simd4_at v, pm_simd4_int_at *whole)
 {
 #ifdef __AVX__

@@ -76,16 +76,57 @@ PM_SIMD_INLINE void add_pairs(size_t n, pm_simd_int cell, pm_simd x, pm_simd q, 
 			*(pm_simd2_at *)(corners + (size_t)(uint32_t)at[l] + l % PM_LINE_PAIRS * 2) += pair[l];
 }
 
+/* The pairs of a cell in registers, while whole vectors of particles are in it: those of a stream in the order of cells. */
+struct held {
+	int32_t cell; /* -1: none */
+	pm_simd2_at pair[PM_LINE_PAIRS];
+};
+
+PM_SIMD_INLINE void put_back(struct held *h, double *corners)
+{
+	if (h->cell < 0)
+		return;
+	pm_simd2_at *to = (pm_simd2_at *)(corners + (size_t)(uint32_t)h->cell * cell_size);
+	to[0] = h->pair[0], to[1] = h->pair[1];
+	h->cell = -1;
+}
+
+PM_SIMD_INLINE void hold(struct held *h, int32_t cell, double *corners)
+{
+	if (h->cell == cell)
+		return;
+	put_back(h, corners);
+	const pm_simd2_at *from = (const pm_simd2_at *)(corners + (size_t)(uint32_t)cell * cell_size);
+	h->cell = cell, h->pair[0] = from[0], h->pair[1] = from[1];
+}
+
+PM_SIMD_INLINE void add_to_held(struct held *h, pm_simd x, pm_simd q)
+{
+	pm_simd2_at pair[PM_SIMD_WIDTH];
+	pm_simd_to_pairs((1 - x) * q, x * q, pair);
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+		h->pair[l % PM_LINE_PAIRS] += pair[l];
+}
+
 PM_SIMD_INLINE void spread(bool simple, struct line l, const double *q, double *corners)
 {
 	pm_simd_int cell;
 	size_t i = 0;
+	struct held h = {.cell = -1};
 	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
 		const pm_simd x = find(simple, &l, l.x + i, &cell);
 		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
 		__builtin_prefetch(q + i + PM_TILE_AHEAD);
+		if (pm_simd_int_all(cell, cell[0])) {
+			hold(&h, cell[0], corners);
+			add_to_held(&h, x, pm_simd_load_any(q + i));
+			continue;
+		}
+		put_back(&h, corners);
 		add_pairs(PM_SIMD_WIDTH, cell, x, pm_simd_load_any(q + i), corners);
 	}
+	put_back(&h, corners);
 	if (i < l.m) {
 		double few[2][PM_SIMD_WIDTH];
 		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few[0]), &cell);
@@ -120,10 +161,15 @@ void pm_tile_line_fold(const struct pm_tile *t, size_t cells)
 PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const struct pm_tile *t, const struct delivery to[], size_t p, pm_simd *nothing)
 {
 	int32_t at[PM_SIMD_WIDTH];
+	const bool one = pm_simd_int_all(cell, cell[0]);
 	*(pm_simd_int_at *)at = cell;
 	for (int c = 0; c < t->components; c++) {
+		const double *block = t->block + (size_t)c * PM_BLOCK_MOST;
 		pm_simd low, high;
-		load_pairs(t->block + (size_t)c * PM_BLOCK_MOST, at, &low, &high);
+		if (one)
+			low = pm_simd_all(block[cell[0]]), high = pm_simd_all(block[cell[0] + 1]);
+		else
+			load_pairs(block, at, &low, &high);
 		deliver_eight(0 + low * (1 - x) + high * x, n, &to[c], p, nothing);
 	}
 }
