@@ -288,6 +288,20 @@ PM_SIMD_INLINE pm_simd pm_simd_fnma(pm_simd a, pm_simd b, pm_simd c)
 #endif
 }
 
+/* a*b + c, rounded once on any machine. */
+PM_SIMD_INLINE pm_simd pm_simd_fma_once(pm_simd a, pm_simd b, pm_simd c)
+{
+#if defined PM_SIMD_FOUR && defined __FMA__
+	return (pm_simd)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#elif defined __AVX512F__
+	return pm_simd_fma(a, b, c);
+#else
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		c[l] = fma(a[l], b[l], c[l]);
+	return c;
+#endif
+}
+
 /* a/b, rounded once, where r is 1/b: with multiply-adds by Markstein's correction (IBM J. Res. Dev. 34 (1990) 111), which is three operations instead of
  * one that takes as long as sixteen. Quotients below 1e-290 may be rounded twice; infinite ones are NaN. */
 PM_SIMD_INLINE pm_simd pm_simd_divide(pm_simd a, pm_simd b, pm_simd r)
@@ -514,6 +528,19 @@ PM_SIMD_INLINE pm_simd pm_simd_rsqrt_start(pm_simd x)
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
 		y[l] = sqrt(x[l]);
 	return 1 / y;
+#endif
+}
+
+/* 1/sqrt(x) to 1.5 round-offs, x finite and above 0: of a start of 2^-14 and the terms to third order (35/128 e^4 are left, e below 2^-13); a root and a
+ * quotient take the divider three times as long. */
+PM_SIMD_INLINE pm_simd pm_simd_rsqrt(pm_simd x)
+{
+	const pm_simd y = pm_simd_rsqrt_start(x);
+#ifdef __AVX512F__
+	const pm_simd e = pm_simd_fnma(x * y, y, pm_simd_all(1));
+	return pm_simd_fma(y * e, pm_simd_fma(e, pm_simd_fma(e, pm_simd_all(0.3125), pm_simd_all(0.375)), pm_simd_all(0.5)), y);
+#else
+	return y;
 #endif
 }
 

@@ -5,29 +5,37 @@
 
 #include "step-parts/magnetic-lanes.h"
 
-/* What t is to be multiplied by for tau, tan of half of the angle that this half turns, along B; t = (q/m) B dt/2, t2 its square. Of all lanes. */
-typedef void pm_boris_angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MAGNETIC_LANES]);
+/* What t is to be multiplied by for tau, tan of half of the angle that this half turns, along B, and 2/(1 + tau^2); t = (q/m) B dt/2, t2 its square. */
+typedef void pm_boris_angles(pm_simd t2, pm_simd *part, pm_simd *turn);
 
 PM_SIMD_INLINE void pm_boris_half(bool closing, double dt, const struct pm_magnetic_lanes *p, pm_boris_angles *angles)
 {
-	double t[3][PM_MAGNETIC_LANES], t2[PM_MAGNETIC_LANES], part[PM_MAGNETIC_LANES];
-	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
-		const double half = 0.5 * dt * p->charge[l] / p->mass[l], x = half * p->b[0][l], y = half * p->b[1][l], z = half * p->b[2][l];
-		t[0][l] = x, t[1][l] = y, t[2][l] = z;
-		t2[l] = x * x + y * y + z * z;
-	}
-	angles(t2, part);
-	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
-		double v[3], a[3];
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 3; c++) {
-			a[c] = 0.5 * dt * p->acc[c][l];
-			v[c] = p->v[c][l] + (closing ? a[c] : 0);
-		}
-		pm_magnetic_turn((const double[3]){t[0][l] * part[l], t[1][l] * part[l], t[2][l] * part[l]}, v);
+	_Alignas(64) double tau[3][PM_MAGNETIC_LANES], turn[PM_MAGNETIC_LANES];
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l += PM_SIMD_WIDTH) {
+		const pm_simd half = 0.5 * dt * pm_simd_load_any(p->charge + l) / pm_simd_load_any(p->mass + l);
+		pm_simd t[3], part, near;
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 3; c++)
-			p->changed[c][l] = v[c] + (closing ? 0 : a[c]);
+			t[c] = half * pm_simd_load_any(p->b[c] + l);
+		angles(pm_magnetic_square(t), &part, &near);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++)
+			pm_simd_store_any(tau[c] + l, t[c] * part);
+		pm_simd_store_any(turn + l, near);
+	}
+	for (size_t l = 0; l < PM_MAGNETIC_LANES; l += PM_SIMD_WIDTH) {
+		pm_simd t[3], v[3], a[3];
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++) {
+			t[c] = pm_simd_load_any(tau[c] + l);
+			a[c] = 0.5 * dt * pm_simd_load_any(p->acc[c] + l);
+			v[c] = pm_simd_load_any(p->v[c] + l);
+			v[c] = closing ? v[c] + a[c] : v[c];
+		}
+		pm_magnetic_turn(t, pm_simd_load_any(turn + l), v);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 3; c++)
+			pm_simd_store_any(p->changed[c] + l, closing ? v[c] : v[c] + a[c]);
 	}
 }
 

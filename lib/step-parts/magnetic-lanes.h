@@ -11,11 +11,11 @@
 
 enum { PM_MAGNETIC_LANES = 64 };
 
-/* n values from i on where they fill all lanes, else copied to few. */
-PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size_t n, double none, double few[PM_MAGNETIC_LANES])
+/* n values from i on where they fill all lanes, else copied to few. far: many more follow, hardly in a cache. */
+PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size_t n, bool far, double none, double few[PM_MAGNETIC_LANES])
 {
 	if (from && n == PM_MAGNETIC_LANES) {
-		for (size_t l = 0; l < PM_MAGNETIC_LANES; l += 8) /* up to eleven arrays are more streams than the processor follows by itself */
+		for (size_t l = 0; l < PM_MAGNETIC_LANES && far; l += 8) /* up to eleven arrays are more streams than the processor follows by itself */
 			__builtin_prefetch(from + i + PM_MAGNETIC_LANES + l);
 		return from + i;
 	}
@@ -29,7 +29,7 @@ PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size
 /* The pieces of the arrays for so many particles, and where their new velocities go. */
 struct pm_magnetic_lanes {
 	const double *v[3], *acc[3], *b[3], *charge, *mass;
-	double (*changed)[PM_MAGNETIC_LANES];
+	double *changed[3];
 	bool alike;
 	double c, radiation_time; /* of struct pm_magnetic */
 };
@@ -38,16 +38,18 @@ struct pm_magnetic_lanes {
  * constants. */
 #define PM_MAGNETIC_LOOP(m, from, to, kick, ...) \
 	for (size_t at = (from); at < (to); at += PM_MAGNETIC_LANES) { \
+		const bool far = (to) - at > 16 * PM_MAGNETIC_LANES; \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
-		double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
-		struct pm_magnetic_lanes lanes = {.changed = changed, .alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
+		_Alignas(64) double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
+		struct pm_magnetic_lanes lanes = {.alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time, \
+			.changed = {changed[0], changed[1], changed[2]}}; \
 		for (int c = 0; c < 3; c++) { \
-			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, 0, few[c]); \
-			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, 0, few[3 + c]); \
-			lanes.b[c] = pm_magnetic_take((m)->b[c], at, many, 0, few[6 + c]); \
+			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, far, 0, few[c]); \
+			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, far, 0, few[3 + c]); \
+			lanes.b[c] = pm_magnetic_take((m)->b[c], at, many, far, 0, few[6 + c]); \
 		} \
-		lanes.charge = pm_magnetic_take((m)->charge, at, many, 1, few[9]); \
-		lanes.mass = pm_magnetic_take((m)->mass, at, many, 1, few[10]); \
+		lanes.charge = pm_magnetic_take((m)->charge, at, many, far, 1, few[9]); \
+		lanes.mass = pm_magnetic_take((m)->mass, at, many, far, 1, few[10]); \
 		kick(__VA_ARGS__, &lanes); \
 		for (int c = 0; c < 3; c++) \
 			if ((m)->v[c] && many == PM_MAGNETIC_LANES) /* a constant size is no call */ \

@@ -6,24 +6,31 @@
 #include "base/simd.h"
 
 /* v + (v + v x tau) x s with s = 2 tau/(1 + tau^2) turns by 2 atan |tau|. Rounding s would change |v| by a few 1e-17 with the same sign in every
- * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. */
-PM_SIMD_INLINE void pm_magnetic_turn(const double tau[3], double v[3])
+ * step; the low part of 2/(1 + tau^2) corrects that, so that only random rounding remains. s: 2/(1 + tau^2) to some round-offs. */
+PM_SIMD_INLINE void pm_magnetic_turn(const pm_simd tau[3], pm_simd s, pm_simd v[3])
 {
-	double high = 1, low = 0;
+	pm_simd high = pm_simd_all(1), low = pm_simd_all(0), w[3];
 	PM_SIMD_UNROLL
-	for (int c = 0; c < 3; c++) { /* 1 + tau^2 in two parts */
-		const double square = tau[c] * tau[c], sum = high + square, part = sum - high;
-		low += fma(tau[c], tau[c], -square) + ((high - (sum - part)) + (square - part));
+	for (int c = 0; c < 3; c++) { /* 1 + tau^2 in two parts; exactly so while tau^2 is below 1 */
+		const pm_simd sum = pm_simd_fma_once(tau[c], tau[c], high);
+		low += pm_simd_fma_once(tau[c], tau[c], high - sum);
 		high = sum;
 	}
-	const double s = 2 / high, s_low = (fma(-s, high, 2) - s * low) * (0.5 * s);
-	const double w[3] = {v[0] + (v[1] * tau[2] - v[2] * tau[1]), v[1] + (v[2] * tau[0] - v[0] * tau[2]), v[2] + (v[0] * tau[1] - v[1] * tau[0])};
+	const pm_simd s_low = pm_simd_fnma(s, low, pm_simd_fma_once(-s, high, pm_simd_all(2))) * (0.5 * s);
 	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++) {
 		const int d = (c + 1) % 3, e = (c + 2) % 3;
-		const double cross = w[d] * tau[e] - w[e] * tau[d];
-		v[c] += fma(s, cross, s_low * cross);
+		w[c] = pm_simd_fma(v[d], tau[e], pm_simd_fnma(v[e], tau[d], v[c]));
+	}
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++) {
+		const int d = (c + 1) % 3, e = (c + 2) % 3;
+		const pm_simd cross = pm_simd_fma(w[d], tau[e], -(w[e] * tau[d]));
+		v[c] += pm_simd_fma(s, cross, s_low * cross);
 	}
 }
+
+/* Of a vector in the lanes, its square. */
+PM_SIMD_INLINE pm_simd pm_magnetic_square(const pm_simd x[3]) { return pm_simd_fma(x[2], x[2], pm_simd_fma(x[1], x[1], x[0] * x[0])); }
 
 #endif

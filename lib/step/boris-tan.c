@@ -6,12 +6,13 @@
 #include "step-parts/plain-pass.h"
 #include "step/step.h"
 
-PM_SIMD_INLINE void angles(const double t2[PM_MAGNETIC_LANES], double part[PM_MAGNETIC_LANES])
+PM_SIMD_INLINE void angles(pm_simd t2, pm_simd *part, pm_simd *turn)
 {
-	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
+	for (int l = 0; l < PM_SIMD_WIDTH; l++) {
 		const double half = sqrt(t2[l]);
-		part[l] = half > 0 ? tan(0.5 * half) / half : 0;
+		(*part)[l] = half > 0 ? tan(0.5 * half) / half : 0;
 	}
+	*turn = 2 / (1 + t2 * *part * *part);
 }
 
 PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes *p) { pm_boris_half(closing, dt, p, angles); }

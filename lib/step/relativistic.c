@@ -2,7 +2,7 @@
  * by the frequency Omega/gamma, and half of the kick of u = gamma v; the opening half rotates, then kicks, the closing half kicks, then rotates.
  * Without a magnetic field only the kick. The frame keeps v; c is its constant.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
- * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three roots and four quotients a particle,
+ * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three inverse roots and a quotient a particle,
  * and one where charges or masses differ.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-lanes.h"
@@ -11,59 +11,76 @@
 
 enum { lanes_of = PM_MAGNETIC_LANES };
 
-PM_SIMD_INLINE double square(const double x[3]) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
-
-/* The tangent tau of half of the rotation of u, whose gamma it keeps. half: q dt/2m gamma. */
-PM_SIMD_INLINE void find_tangent(double half, const struct pm_magnetic_lanes *p, size_t l, double tau[3][lanes_of])
-{
-	const double t[3] = {half * p->b[0][l], half * p->b[1][l], half * p->b[2][l]}, part = 1 / (1 + sqrt(1 + square(t)));
-	tau[0][l] = t[0] * part, tau[1][l] = t[1] * part, tau[2][l] = t[2] * part;
-}
-
-PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *p, size_t l, double u[3])
+PM_SIMD_INLINE void take(const double *const from[3], size_t l, pm_simd to[3])
 {
 	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++)
-		u[c] += 0.5 * dt * p->acc[c][l];
+		to[c] = pm_simd_load_any(from[c] + l);
 }
 
-/* In loops that are short enough for the next particles to begin while those under way wait for their roots and quotients, and that share these evenly. */
+PM_SIMD_INLINE void put(const pm_simd x[3], pm_simd by, double *const to[3], size_t l)
+{
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		pm_simd_store_any(to[c] + l, x[c] * by);
+}
+
+PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *p, size_t l, pm_simd u[3])
+{
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		u[c] = pm_simd_fma(pm_simd_all(0.5 * dt), pm_simd_load_any(p->acc[c] + l), u[c]);
+}
+
+/* In loops that are short enough for the next particles to begin while those under way wait for their roots and quotients. */
 PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const struct pm_magnetic_lanes *p)
 {
 	const double per = 1 / (light * light), one = opens || closes ? 0.5 * dt * p->charge[0] / p->mass[0] : 0;
-	double rate[lanes_of], slower[lanes_of], u[3][lanes_of], tau[3][lanes_of];
-	for (size_t l = 0; l < lanes_of && (opens || closes); l++)
-		rate[l] = one;
-	for (size_t l = 0; l < lanes_of && (opens || closes) && !p->alike; l++)
-		rate[l] = 0.5 * dt * p->charge[l] / p->mass[l];
-	for (size_t l = 0; l < lanes_of; l++) {
-		double w[3] = {p->v[0][l], p->v[1][l], p->v[2][l]};
-		const double less = sqrt(1 - square(w) * per), gamma = 1 / less;
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 3; c++)
-			w[c] *= gamma;
-		if (opens)
-			find_tangent(rate[l] * less, p, l, tau);
-		else {
-			add_acceleration(dt, p, l, w);
-			slower[l] = 1 / sqrt(1 + square(w) * per);
-		}
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 3; c++)
-			u[c][l] = w[c];
+	_Alignas(64) double less[lanes_of], turn[lanes_of], u[3][lanes_of], tau[3][lanes_of];
+	double *const us[3] = {u[0], u[1], u[2]}, *const taus[3] = {tau[0], tau[1], tau[2]};
+	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
+		pm_simd w[3];
+		take(p->v, l, w);
+		const pm_simd less2 = pm_simd_fnma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1)), gamma = pm_simd_rsqrt(less2);
+		put(w, gamma, us, l);
+		pm_simd_store_any(less + l, less2 * gamma);
 	}
-	for (size_t l = 0; l < lanes_of && closes; l++)
-		find_tangent(rate[l] * slower[l], p, l, tau);
-	for (size_t l = 0; l < lanes_of; l++) {
-		double w[3] = {u[0][l], u[1][l], u[2][l]};
-		if (opens || closes)
-			pm_magnetic_turn((const double[3]){tau[0][l], tau[1][l], tau[2][l]}, w);
-		if (opens)
-			add_acceleration(dt, p, l, w);
-		const double less = opens ? 1 / sqrt(1 + square(w) * per) : slower[l];
+	for (size_t l = 0; l < lanes_of && closes; l += PM_SIMD_WIDTH) {
+		pm_simd w[3];
+		take((const double *const *)us, l, w);
+		add_acceleration(dt, p, l, w);
+		pm_simd_store_any(less + l, pm_simd_rsqrt(pm_simd_fma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1))));
+		put(w, pm_simd_all(1), us, l);
+	}
+	for (size_t l = 0; l < lanes_of && (opens || closes); l += PM_SIMD_WIDTH) {
+		const pm_simd rate = p->alike ? pm_simd_all(one) : 0.5 * dt * pm_simd_load_any(p->charge + l) / pm_simd_load_any(p->mass + l);
+		pm_simd t[3];
+		take(p->b, l, t);
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 3; c++)
-			p->changed[c][l] = w[c] * less;
+			t[c] *= rate * pm_simd_load_any(less + l);
+		const pm_simd length2 = 1 + pm_magnetic_square(t), slower = pm_simd_rsqrt(length2);
+		put(t, 1 / pm_simd_fma(length2, slower, pm_simd_all(1)), taus, l);
+		pm_simd_store_any(turn + l, 1 + slower);
+	}
+	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
+		pm_simd w[3], t[3];
+		take((const double *const *)us, l, w);
+		if (opens || closes) {
+			take((const double *const *)taus, l, t);
+			pm_magnetic_turn(t, pm_simd_load_any(turn + l), w);
+		}
+		if (closes) {
+			put(w, pm_simd_load_any(less + l), p->changed, l);
+		} else {
+			add_acceleration(dt, p, l, w);
+			put(w, pm_simd_all(1), us, l);
+		}
+	}
+	for (size_t l = 0; l < lanes_of && !closes; l += PM_SIMD_WIDTH) {
+		pm_simd w[3];
+		take((const double *const *)us, l, w);
+		put(w, pm_simd_rsqrt(pm_simd_fma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1))), p->changed, l);
 	}
 }
 
