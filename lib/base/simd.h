@@ -120,6 +120,16 @@ PM_SIMD_INLINE double pm_simd_here(double x)
 	return x;
 }
 
+/* The same in four lanes. */
+PM_SIMD_INLINE pm_simd4_at pm_simd4_here(double x)
+{
+	pm_simd4_at four = {x, x, x, x};
+#ifdef __AVX__
+	__asm__ volatile("" : "+x"(four));
+#endif
+	return four;
+}
+
 /* What one register holds to an aligned address, past the caches where the processor can: whole lines of 64 bytes, one after the other, and an end before
  * others read them. */
 PM_SIMD_INLINE void pm_simd_part_past(double *to, pm_simd_part v)

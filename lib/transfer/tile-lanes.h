@@ -34,7 +34,7 @@ struct row {
 
 PM_SIMD_INLINE struct row row_zero(void) { return (struct row){{0}, {{0}}, {{0}}, 0}; }
 
-/* y = a * x, y += a * x, also of a row in registers, which what is stored may not change; r = a * x, r += a * x, r = r * a + x, y = r. */
+/* y = a * x, y += a * x; r = a * x, r += a * x, r = r * a + x, y = r. */
 PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y)
 {
 #define SET(part, from) ROW_AT(y, part, from) = ROW_CONST(x, part, from) * a;
@@ -44,12 +44,6 @@ PM_SIMD_INLINE void row_set(int n, double a, const double *x, double *y)
 PM_SIMD_INLINE void row_add(int n, double a, const double *x, double *y)
 {
 #define ADD(part, from) ROW_AT(y, part, from) += ROW_CONST(x, part, from) * a;
-	ROW_PARTS(n, ADD)
-#undef ADD
-}
-PM_SIMD_INLINE void row_add_held(int n, double a, const struct row *x, double *y)
-{
-#define ADD(part, from) ROW_AT(y, part, from) += x->part * a;
 	ROW_PARTS(n, ADD)
 #undef ADD
 }

@@ -81,10 +81,56 @@ PM_SIMD_INLINE void rows_of_lot(int width, const struct lot *lot, double row[PM_
 	}
 }
 
+/* A row of points as fours and a pair: a load of eight numbers, and a number brought to eight lanes, take twice as long as those of four, and more of eight
+ * cross a line of the cache. */
+struct points {
+	pm_simd4_at four[2];
+	pm_simd2_at two;
+};
+
+PM_SIMD_INLINE int points_many(int width) { return width <= 4 ? 4 : width <= 6 ? 6 : 8; }
+
+/* The factor of a row; held: there are registers for those of many. */
+PM_SIMD_INLINE pm_simd4_at factor_of(bool held, double f) { return held ? (pm_simd4_at){f, f, f, f} : pm_simd4_here(f); }
+
+PM_SIMD_INLINE void points_more(int n, pm_simd4_at a, const double *x, struct points *p)
+{
+	p->four[0] += *(const pm_simd4_at *)x * a;
+	if (n == 6)
+		p->two += *(const pm_simd2_at *)(x + 4) * __builtin_shufflevector(a, a, 0, 1);
+	if (n == 8)
+		p->four[1] += *(const pm_simd4_at *)(x + 4) * a;
+}
+
+/* Those from 0 or 4 on. */
+PM_SIMD_INLINE pm_simd4_at points_from(int n, int from, const struct points *p)
+{
+	return from && n == 6 ? (pm_simd4_at)__builtin_shufflevector(p->two, p->two, 0, 1, 0, 1) : p->four[from / 4];
+}
+
+PM_SIMD_INLINE struct points points_of(int n, const double *x)
+{
+	struct points p = {.two = {0}};
+	p.four[0] = *(const pm_simd4_at *)x;
+	if (n == 6)
+		p.two = *(const pm_simd2_at *)(x + 4);
+	if (n == 8)
+		p.four[1] = *(const pm_simd4_at *)(x + 4);
+	return p;
+}
+
+PM_SIMD_INLINE void points_add(int n, pm_simd4_at a, const struct points *x, double *y)
+{
+	*(pm_simd4_at *)y += x->four[0] * a;
+	if (n == 6)
+		*(pm_simd2_at *)(y + 4) += x->two * __builtin_shufflevector(a, a, 0, 1);
+	if (n == 8)
+		*(pm_simd4_at *)(y + 4) += x->four[1] * a;
+}
+
 PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
 {
-	const int n = (int)PM_SIMD_PART == 4 && width == 6 ? width : padded(width); /* stores that cross a line of the cache take twice as long */
-	const int across = pm_block_row[dim], plane = across * pm_block_rows[dim];
+	const int n = points_many(width), across = pm_block_row[dim], plane = across * pm_block_rows[dim];
 	struct lot lot;
 	double row[PM_SIMD_WIDTH][most] __attribute__((aligned(64))), *block = t->block;
 	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
@@ -98,11 +144,13 @@ PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile 
 		find_lot(dim, width, degree, t, index, 1, &strength, &lot);
 		rows_of_lot(width, &lot, row);
 		for (size_t l = 0; l < m; l++) {
-			struct row x;
-			row_take(n, 1, row[l], &x);
+			const struct points x = points_of(n, row[l]);
+			double *to = block + lot.at[l];
 			for (int z = 0; z < (dim > 2 ? width : 1); z++)
-				for (int y = 0; y < (dim > 1 ? width : 1); y++)
-					row_add_held(n, lot.f[(size_t)(z * width + y) * PM_SIMD_WIDTH + l], &x, block + lot.at[l] + z * plane + y * across);
+				for (int y = 0; y < (dim > 1 ? width : 1); y++) {
+					const double f = lot.f[(size_t)(z * width + y) * PM_SIMD_WIDTH + l];
+					points_add(n, factor_of(width <= 4, f), &x, to + z * plane + y * across);
+				}
 		}
 	}
 }
@@ -110,32 +158,29 @@ PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile 
 /* A component at all particles of a lot. */
 PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const double *block)
 {
-	const int n = padded(width), row = pm_block_row[dim], plane = row * pm_block_rows[dim], rows = dim > 1 ? width : 1;
+	const int n = dim < 3 && (int)PM_SIMD_PART == 4 ? padded(width) : points_many(width);
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim], rows = dim > 1 ? width : 1;
 	const bool held = dim < 3 || width == 4; /* there are registers for the factors */
-	struct row sum[PM_SIMD_WIDTH];
-	double left[PM_SIMD_WIDTH][most] __attribute__((aligned(64)));
+	struct points sum[PM_SIMD_WIDTH];
 	pm_simd value = {0};
 	PM_SIMD_UNROLL
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		sum[l] = row_zero();
+		sum[l] = (struct points){.two = {0}};
 	for (int z = 0; z < (dim > 2 ? width : 1); z++)
 		for (int y = 0; y < rows; y++) {
 			PM_SIMD_UNROLL
 			for (int l = 0; l < PM_SIMD_WIDTH; l++) {
 				const double f = lot->f[(z * width + y) * PM_SIMD_WIDTH + l];
-				row_more(n, held ? f : pm_simd_here(f), block + lot->at[l] + z * plane + y * row, &sum[l]);
+				points_more(n, factor_of(held, f), block + lot->at[l] + z * plane + y * row, &sum[l]);
 			}
 		}
-	PM_SIMD_UNROLL
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		row_put(n, &sum[l], left[l]);
 	PM_SIMD_UNROLL
 	for (int from = 0; from < width; from += 4) {
 		pm_simd4_at four[PM_SIMD_WIDTH];
 		pm_simd point[4];
 		PM_SIMD_UNROLL
 		for (int l = 0; l < PM_SIMD_WIDTH; l++)
-			four[l] = *(const pm_simd4_at *)(left[l] + from);
+			four[l] = points_from(n, from, &sum[l]);
 		pm_simd_rows_to_lanes(four, point);
 		PM_SIMD_UNROLL
 		for (int k = 0; k < 4; k++)
@@ -210,7 +255,7 @@ PM_SIMD_INLINE void put(double *result, int n, int room, pm_simd4_at value)
 
 PM_SIMD_INLINE void gather(int dim, int width, int degree, bool woven, const struct pm_tile *t)
 {
-	const bool sorts = woven; /* of one component, sorting costs more than it saves */
+	const bool sorts = woven && width > 3; /* of one component, or few points, sorting costs more than it saves */
 	uint16_t order[PM_TILE_CELLS];
 	struct lot lot;
 	for (size_t from = 0; from < t->count; from += PM_TILE_CELLS) {
@@ -234,7 +279,7 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, bool woven, const str
 			for (int c = 0; c < t->components && woven; c += group, nodes += PM_VECTOR_NODES)
 				for (size_t l = 0; l < n; l++)
 					put(t->results + index[l] * (size_t)t->to + c, t->components - c < group ? t->components - c : group, t->to - c,
-						(int)PM_SIMD_PART == 8 ? pair_value(width, &lot, l, nodes) : node_value(width, &lot, l, nodes));
+						(int)PM_SIMD_PART == 8 && width > 3 ? pair_value(width, &lot, l, nodes) : node_value(width, &lot, l, nodes));
 		}
 	}
 }
