@@ -528,16 +528,26 @@ PM_SIMD_INLINE pm_simd pm_simd_exp(pm_simd x)
 	return (pm_simd)((pm_simd_words)p + ((pm_simd_words)whole << 52));
 }
 
+PM_SIMD_INLINE pm_simd pm_simd_sqrt(pm_simd x)
+{
+#if defined __AVX512F__
+	return (pm_simd)_mm512_sqrt_pd((__m512d)x);
+#elif defined PM_SIMD_FOUR && defined __AVX__
+	return (pm_simd)_mm256_sqrt_pd((__m256d)x);
+#else /* compilers take one lane after the other where there are more in a register */
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		x[l] = sqrt(x[l]);
+	return x;
+#endif
+}
+
 /* 1/sqrt(x) and 1/x to a relative error below 2^-14. */
 PM_SIMD_INLINE pm_simd pm_simd_rsqrt_start(pm_simd x)
 {
 #ifdef __AVX512F__
 	return (pm_simd)_mm512_rsqrt14_pd((__m512d)x);
 #else
-	pm_simd y;
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		y[l] = sqrt(x[l]);
-	return 1 / y;
+	return 1 / pm_simd_sqrt(x);
 #endif
 }
 

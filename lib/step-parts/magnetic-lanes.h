@@ -3,6 +3,8 @@
 #ifndef PM_STEP_PARTS_MAGNETIC_LANES_H
 #define PM_STEP_PARTS_MAGNETIC_LANES_H
 
+#define PM_SIMD_NARROW
+
 #include <string.h>
 
 #include "base/simd.h"
@@ -29,7 +31,7 @@ PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size
 /* The pieces of the arrays for so many particles, and where their new velocities go. */
 struct pm_magnetic_lanes {
 	const double *v[3], *acc[3], *b[3], *charge, *mass;
-	double *changed[3];
+	double (*changed)[PM_MAGNETIC_LANES];
 	bool alike;
 	double c, radiation_time; /* of struct pm_magnetic */
 };
@@ -41,8 +43,7 @@ struct pm_magnetic_lanes {
 		const bool far = (to) - at > 16 * PM_MAGNETIC_LANES; \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
 		_Alignas(64) double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
-		struct pm_magnetic_lanes lanes = {.alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time, \
-			.changed = {changed[0], changed[1], changed[2]}}; \
+		struct pm_magnetic_lanes lanes = {.changed = changed, .alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
 		for (int c = 0; c < 3; c++) { \
 			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, far, 0, few[c]); \
 			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, far, 0, few[3 + c]); \

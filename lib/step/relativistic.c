@@ -2,7 +2,7 @@
  * by the frequency Omega/gamma, and half of the kick of u = gamma v; the opening half rotates, then kicks, the closing half kicks, then rotates.
  * Without a magnetic field only the kick. The frame keeps v; c is its constant.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
- * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three inverse roots and a quotient a particle,
+ * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: two inverse roots, a root and two quotients a particle,
  * and one where charges or masses differ.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-lanes.h"
@@ -18,11 +18,18 @@ PM_SIMD_INLINE void take(const double *const from[3], size_t l, pm_simd to[3])
 		to[c] = pm_simd_load_any(from[c] + l);
 }
 
-PM_SIMD_INLINE void put(const pm_simd x[3], pm_simd by, double *const to[3], size_t l)
+PM_SIMD_INLINE void put(const pm_simd x[3], double to[3][lanes_of], size_t l)
 {
 	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++)
-		pm_simd_store_any(to[c] + l, x[c] * by);
+		pm_simd_store_any(to[c] + l, x[c]);
+}
+
+PM_SIMD_INLINE void scale(pm_simd by, pm_simd x[3])
+{
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		x[c] *= by;
 }
 
 PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *p, size_t l, pm_simd u[3])
@@ -32,55 +39,57 @@ PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *
 		u[c] = pm_simd_fma(pm_simd_all(0.5 * dt), pm_simd_load_any(p->acc[c] + l), u[c]);
 }
 
+/* 1/gamma of u = gamma v; rounded as roots and quotients are, so that one component is never above c. */
+PM_SIMD_INLINE pm_simd slower_of(const pm_simd u[3], double per)
+{
+	return 1 / pm_simd_sqrt(pm_simd_fma(pm_magnetic_square(u), pm_simd_all(per), pm_simd_all(1)));
+}
+
 /* In loops that are short enough for the next particles to begin while those under way wait for their roots and quotients. */
 PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const struct pm_magnetic_lanes *p)
 {
 	const double per = 1 / (light * light), one = opens || closes ? 0.5 * dt * p->charge[0] / p->mass[0] : 0;
 	_Alignas(64) double less[lanes_of], turn[lanes_of], u[3][lanes_of], tau[3][lanes_of];
-	double *const us[3] = {u[0], u[1], u[2]}, *const taus[3] = {tau[0], tau[1], tau[2]};
+	const double *const us[3] = {u[0], u[1], u[2]}, *const taus[3] = {tau[0], tau[1], tau[2]};
+	pm_simd w[3], t[3];
 	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
-		pm_simd w[3];
 		take(p->v, l, w);
 		const pm_simd less2 = pm_simd_fnma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1)), gamma = pm_simd_rsqrt(less2);
-		put(w, gamma, us, l);
+		scale(gamma, w);
+		put(w, u, l);
 		pm_simd_store_any(less + l, less2 * gamma);
 	}
 	for (size_t l = 0; l < lanes_of && closes; l += PM_SIMD_WIDTH) {
-		pm_simd w[3];
-		take((const double *const *)us, l, w);
+		take(us, l, w);
 		add_acceleration(dt, p, l, w);
-		pm_simd_store_any(less + l, pm_simd_rsqrt(pm_simd_fma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1))));
-		put(w, pm_simd_all(1), us, l);
+		pm_simd_store_any(less + l, slower_of(w, per));
+		put(w, u, l);
 	}
 	for (size_t l = 0; l < lanes_of && (opens || closes); l += PM_SIMD_WIDTH) {
 		const pm_simd rate = p->alike ? pm_simd_all(one) : 0.5 * dt * pm_simd_load_any(p->charge + l) / pm_simd_load_any(p->mass + l);
-		pm_simd t[3];
 		take(p->b, l, t);
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 3; c++)
-			t[c] *= rate * pm_simd_load_any(less + l);
+		scale(rate * pm_simd_load_any(less + l), t);
 		const pm_simd length2 = 1 + pm_magnetic_square(t), slower = pm_simd_rsqrt(length2);
-		put(t, 1 / pm_simd_fma(length2, slower, pm_simd_all(1)), taus, l);
+		scale(1 / pm_simd_fma(length2, slower, pm_simd_all(1)), t);
+		put(t, tau, l);
 		pm_simd_store_any(turn + l, 1 + slower);
 	}
 	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
-		pm_simd w[3], t[3];
-		take((const double *const *)us, l, w);
+		take(us, l, w);
 		if (opens || closes) {
-			take((const double *const *)taus, l, t);
+			take(taus, l, t);
 			pm_magnetic_turn(t, pm_simd_load_any(turn + l), w);
 		}
-		if (closes) {
-			put(w, pm_simd_load_any(less + l), p->changed, l);
-		} else {
+		if (closes)
+			scale(pm_simd_load_any(less + l), w);
+		else
 			add_acceleration(dt, p, l, w);
-			put(w, pm_simd_all(1), us, l);
-		}
+		put(w, closes ? p->changed : u, l);
 	}
 	for (size_t l = 0; l < lanes_of && !closes; l += PM_SIMD_WIDTH) {
-		pm_simd w[3];
-		take((const double *const *)us, l, w);
-		put(w, pm_simd_rsqrt(pm_simd_fma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1))), p->changed, l);
+		take(us, l, w);
+		scale(slower_of(w, per), w);
+		put(w, p->changed, l);
 	}
 }
 

@@ -117,6 +117,22 @@ static void test_gradient(void)
 	}
 }
 
+/* From rest by forces up to 1e15 along one axis: the rounded speed is at most c. Roots and quotients are rounded so that it is (sqrt(u u) is u, and u (1/u) is
+ * not above 1); an inverse root of 1.5 round-offs is not enough. */
+static void test_light(void)
+{
+	for (int closing = 0; closing < 2; closing++) {
+		int above = 0;
+		for (int i = 0; i < 3000; i++) {
+			struct particle p = {.acc = {[0] = 0}, .b = {0}, .charge = 1, .mass = 1};
+			p.acc[i % 3] = pow(10, 6 + 9. * i / 3000);
+			advance(pm_step_find("relativistic"), &p, closing, 2);
+			above += p.v[i % 3] > 1;
+		}
+		check(above == 0, "relativistic/2, %s half: no force brings a speed above c (%d of 3000 did)", closing ? "closing" : "opening", above);
+	}
+}
+
 /* Particles side by side, of one charge and mass or of many, are kicked as each alone. */
 static void test_lanes(void)
 {
@@ -148,6 +164,7 @@ static void test_lanes(void)
 
 int main(void)
 {
+	test_light();
 	test_lanes();
 	test_step();
 	test_drift();
