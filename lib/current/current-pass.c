@@ -79,13 +79,14 @@ static bool can(const struct pm_current *c, const struct pm_frame *f, const stru
 	return yes;
 }
 
-/* The order is that of the gather: of one mesh, with kernels of one width. */
-static bool is_of_gather(const struct pm_tile_order *left, const struct pm_gather_left *l, struct pm_note **kept, const struct pm_column x[3])
+/* The order of the gather, where it is that of the current too, of one mesh with kernels of one width; found here where the particles were sorted since the
+ * gather was left. NULL: it is not, or failure. */
+static const struct pm_tile_order *order_of_both(const struct pm_current *c, const struct pm_gather_left *l, const struct pm_column x[3], int *status)
 {
 	struct pm_transfer t = l->t;
-	t.kept = kept;
-	const struct pm_order_cache *own = pm_order_cache_find(&t, (const unsigned char[3]){0}, l->n, x);
-	return own && &own->order == left;
+	t.kept = c->kept;
+	*status = t.kernel->width == c->kernel->width ? pm_staggered_order(&t, l->n, x) : 0;
+	return *status > 0 ? pm_current_order_left(c, l->n, x) : NULL;
 }
 
 static double speed_bound(const struct maker *k)
@@ -108,11 +109,12 @@ int pm_current_pass(const struct pm_current_job *j, const struct pm_frame *f, co
 	c.kept = &x->note;
 	for (int d = 0; d < f->dim; d++)
 		at[d] = pm_column_of(x, d);
-	const struct pm_tile_order *left = can(&c, f, l, x, q) ? pm_current_order_left(&c, x->count, at) : NULL;
-	if (!left || !is_of_gather(left, l, c.kept, at))
-		return 0;
+	int status = 0;
+	const struct pm_tile_order *left = can(&c, f, l, x, q) ? order_of_both(&c, l, at, &status) : NULL;
+	if (!left)
+		return status < 0 ? status : 0;
 	struct maker k = {.left = l, .most = pm_zalloc((size_t)pm_threads(), sizeof *k.most)};
-	int status = !k.most ? -PM_DATA : pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));
+	status = !k.most ? -PM_DATA : pm_staggered_few_new(&k.gather, &l->t, left, l->mesh, pm_tile_threads(x->count));
 	struct pm_later *taken = status ? NULL : pm_field_later_take(v);
 	k.later = taken;
 	for (int d = 0; d < 3 && taken; d++) {

@@ -8,6 +8,7 @@
 #include "expression/particle-order.h"
 #include "stream/declare.h"
 #include "stream/later.h"
+#include "stream/reorder.h"
 
 static bool chosen(const struct pm_particle_order *o, const struct pm_set *set) { return !o->set || !strcmp(o->set, set->name); }
 
@@ -94,6 +95,7 @@ static int sort_set(const struct pm_particle_order *o, struct pm_frame *f, const
 	uint64_t *key = pm_alloc(n ? 4 * n : 1, sizeof *key);
 	size_t *order = (size_t *)(key + 2 * n);
 	struct pm_sort_ranks ranks;
+	struct pm_reorder r = {.order = order};
 	int status = key ? 0 : -PM_DATA;
 	for (size_t i = 0; i < f->nfields && (from || !n) && !status; i++)
 		if (permuted(f->fields[i], set->name))
@@ -109,9 +111,10 @@ static int sort_set(const struct pm_particle_order *o, struct pm_frame *f, const
 		pm_keys_order(n, key, key + n, order, order + n);
 	for (size_t i = 0; i < f->nfields; i++)
 		if (permuted(f->fields[i], set->name) && (from || !status))
-			status = from ? pm_sort_ranks_permute(status, &ranks, f->fields[i]) : pm_field_permute(f->fields[i], order);
+			status = from ? pm_sort_ranks_permute(status, &ranks, f->fields[i]) : pm_field_reorder(f->fields[i], &r);
 	if (from)
 		pm_sort_ranks_free(&ranks);
+	pm_reorder_free(&r);
 	pm_free(key);
 	return status;
 }

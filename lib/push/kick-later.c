@@ -11,6 +11,7 @@
 #include "stream/column.h"
 #include "stream/field-value.h"
 #include "stream/later.h"
+#include "stream/reorder.h"
 #include "transfer/gather-later.h"
 #include "world/world.h"
 
@@ -68,6 +69,17 @@ static int make(const struct pm_later *later, double *to)
 		kick_few(later, n - p < few_most ? n - p : few_most, v, acc, b);
 	}
 	return 0;
+}
+
+static struct pm_later *reorder(const struct pm_later *later, struct pm_reorder *r)
+{
+	struct kick_later *k = malloc(sizeof *k);
+	if (!k)
+		return pm_no_memory(), NULL;
+	*k = *(const struct kick_later *)later;
+	k->later.from = NULL, k->later.kicks = &k->kicks;
+	k->kicks.acc = pm_held_reorder(k->kicks.acc, r), k->kicks.bfield = pm_held_reorder(k->kicks.bfield, r);
+	return k->kicks.acc && k->kicks.bfield ? &k->later : pm_later_free(&k->later);
 }
 
 bool pm_kick_may_wait(const struct pm_moving *m, const struct pm_push *p)
@@ -132,8 +144,8 @@ static int begin(const struct pm_frame *f, const struct pm_moving *m, const stru
 	struct kick_later *k = calloc(1, sizeof *k);
 	if (!k)
 		return pm_no_memory();
-	*k = (struct kick_later){.later = {.make = make, .free = let_go}, .c = c, .charge = m->charge->value[0], .mass = m->mass->value[0], .proper = proper,
-		.kicks = {pm_field_held(acc), pm_field_held(m->b), kick_few}};
+	*k = (struct kick_later){.later = {.make = make, .free = let_go, .reorder = reorder}, .kicks = {pm_field_held(acc), pm_field_held(m->b), kick_few},
+		.c = c, .charge = m->charge->value[0], .mass = m->mass->value[0], .proper = proper};
 	k->later.kicks = &k->kicks;
 	if (!k->kicks.acc || !k->kicks.bfield)
 		return pm_later_free(&k->later), -PM_DATA;

@@ -7,6 +7,7 @@
 #include "stream/frame.h"
 
 struct pm_later;
+struct pm_reorder;
 
 /* Of velocities that kicks have left to be made from those before: for a pass over the particles that makes the rates of a few of them itself. */
 struct pm_kicks {
@@ -22,6 +23,8 @@ struct pm_later {
 	double (*oscillation)(const struct pm_later *later, const double *values); /* [1/time] a limit (limits.h) that only the values tell; NULL: none */
 	double most; /* [1/time] the limit is not above it; 0: not known */
 	const struct pm_kicks *kicks; /* NULL: no velocities */
+	/* The same of particles in another order (reorder.h), but for `from`, which it leaves NULL; NULL: failure. If it is NULL, the values are made. */
+	struct pm_later *(*reorder)(const struct pm_later *later, struct pm_reorder *r);
 	struct pm_field *from; /* f64: its values stay as they are now; set by pm_field_later */
 };
 
@@ -41,8 +44,6 @@ int pm_field_now(struct pm_field *field);
  * what the holders know of them; and then that they are changed. */
 bool pm_field_in_place(const struct pm_field *field, int holders);
 void pm_field_changed(struct pm_field *field);
-/* Of a field with PM_USE_WAITS, in a frame that is not divided: value i of every component becomes the old value order[i]. 0 or failure. */
-int pm_field_permute(struct pm_field *field, const size_t *order);
 /* For make(): a copy that holds the values, left to be made as they may be; and then to have them. 0 or failure. */
 struct pm_field *pm_field_held(const struct pm_field *field); /* give back by pm_held_free */
 void pm_held_free(struct pm_field *held); /* or NULL */

@@ -7,6 +7,7 @@
 
 #include "stream/field-value.h"
 #include "stream/later.h"
+#include "stream/reorder.h"
 #include "transfer/gather-later.h"
 #include "transfer/gather-staggered.h"
 #include "transfer/transfer-pass.h"
@@ -65,6 +66,36 @@ static double gyration(const struct pm_later *later, const double *b)
 	return l->rate * sqrt(most);
 }
 
+/* In an order in which they are no longer near each other the gather costs more, and the pass is not made; nothing else is lost. */
+static struct pm_gather_left *left_reorder(const struct pm_gather_left *was, struct pm_reorder *r)
+{
+	struct pm_gather_left *l = calloc(1, sizeof *l);
+	if (!l)
+		return pm_no_memory(), NULL;
+	*l = *was;
+	l->users = 1, l->waits = NULL;
+	l->held[0] = pm_held_reorder(was->held[0], r), l->held[1] = pm_field_held(was->held[1]), l->held[2] = pm_field_held(was->held[2]);
+	if (!l->held[0] || !l->held[1] || !l->held[2] || pm_reorder_add(r, was, l))
+		return let_go(l), NULL;
+	for (int d = 0; d < l->t.grid.dim; d++)
+		l->x[d] = pm_column_of(l->held[0], d);
+	return l;
+}
+
+static struct pm_later *reorder(const struct pm_later *later, struct pm_reorder *r)
+{
+	struct gather_later *g = malloc(sizeof *g);
+	if (!g)
+		return pm_no_memory(), NULL;
+	*g = *(const struct gather_later *)later;
+	struct pm_gather_left *known = pm_reorder_find(r, g->left);
+	g->later.from = NULL;
+	if (known)
+		known->users++;
+	g->left = known ? known : left_reorder(g->left, r);
+	return g->left ? &g->later : (free(g), NULL);
+}
+
 static const struct gather_later *later_of(const struct pm_field *field)
 {
 	const struct pm_later *later = pm_field_later_of(field);
@@ -119,7 +150,8 @@ static int leave(struct pm_field *field, struct pm_gather_left *l, int first)
 	struct gather_later *g = calloc(1, sizeof *g);
 	if (!g)
 		return pm_no_memory();
-	*g = (struct gather_later){.later = {.make = make, .free = later_free, .oscillation = first ? gyration : NULL}, .left = l, .first = first};
+	*g = (struct gather_later){.left = l, .first = first,
+		.later = {.make = make, .free = later_free, .oscillation = first ? gyration : NULL, .reorder = reorder}};
 	l->users++;
 	return pm_field_later(field, &g->later, l->held[0]);
 }
