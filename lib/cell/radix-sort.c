@@ -1,12 +1,13 @@
-/* A stable order by radix sort, least digit first, 11 bits a pass; digits that are equal in all keys are skipped. A stable order is unique, so it is
- * the same for any number of threads. Cost: N per pass, of 8 bytes for up to 2^32 cells and particles, and at most 3 passes for these.
+/* A stable order. Keys that are few, as those of cells with particles in each, are counted, and every particle goes to its place at once; others by radix sort,
+ * least digit first, 11 bits a pass, without the digits that are equal in all keys. A stable order is unique, so it is the same for any number of threads. Cost:
+ * two passes over the keys; of radix sort N per pass, of 8 bytes for up to 2^32 cells and particles, and at most 3 passes for these.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "cell/radix-sort.h"
 #include "transfer/transfer-tile.h"
 
-enum { bits = 11, digits = 1 << bits, few_most = 256, chunks_most = 16 };
+enum { bits = 11, digits = 1 << bits, few_most = 256, chunks_most = 16, counted_most = 1 << 20 };
 
 /* Cells on an axis of a few particles; not by fmin and fmax, which are calls. NaN is in the first. */
 static void cells_of(const struct pm_grid *g, int axis, size_t m, const double *x, uint64_t cell[few_most])
@@ -14,8 +15,13 @@ static void cells_of(const struct pm_grid *g, int axis, size_t m, const double *
 	const double lo = g->lo[axis], h = g->h[axis], n = (double)g->cells[axis];
 	const bool periodic = g->face[axis][0] == PM_PERIODIC;
 	double at[few_most];
+	int outside = 0;
 	for (size_t i = 0; i < m; i++) {
-		double s = floor((x[i] - lo) / h);
+		at[i] = floor((x[i] - lo) / h);
+		outside |= !(at[i] >= 0 && at[i] < n);
+	}
+	for (size_t i = 0; i < m && outside; i++) {
+		double s = at[i];
 		s = periodic ? s - n * floor(s / n) : s;
 		s = s > 0 ? s : 0;
 		at[i] = s < n - 1 ? s : n - 1;
@@ -106,12 +112,45 @@ static void order_halves(size_t n, uint32_t differs, const uint64_t *key, uint64
 		order[i] = from[i] & UINT32_MAX;
 }
 
+/* The chunks' places of every key are in `start`, of 2 n numbers. */
+static bool order_by_counts(size_t n, size_t keys, const uint64_t *key, uint32_t *start, size_t *order)
+{
+	const size_t threads = (size_t)pm_threads(), room = 2 * n / keys, most = room && n < 65536 ? 1 : threads < room ? threads : room;
+	const size_t each = most ? (n + most - 1) / most : 0;
+	if (!most || n > UINT32_MAX)
+		return false;
+#pragma omp parallel for num_threads(most) schedule(static, 1) if (most > 1)
+	for (size_t c = 0; c < most; c++) {
+		uint32_t *count = start + c * keys;
+		memset(count, 0, keys * sizeof *count);
+		for (size_t i = c * each, end = i + each < n ? i + each : n; i < end; i++)
+			count[key[i]]++;
+	}
+	uint32_t at = 0;
+	for (size_t k = 0; k < keys; k++)
+		for (size_t c = 0; c < most; c++) {
+			const uint32_t count = start[c * keys + k];
+			start[c * keys + k] = at;
+			at += count;
+		}
+#pragma omp parallel for num_threads(most) schedule(static, 1) if (most > 1)
+	for (size_t c = 0; c < most; c++) {
+		uint32_t *to = start + c * keys;
+		for (size_t i = c * each, end = i + each < n ? i + each : n; i < end; i++)
+			order[to[key[i]]++] = i;
+	}
+	return true;
+}
+
 void pm_keys_order(size_t n, uint64_t *key, uint64_t *key_work, size_t *order, size_t *order_work)
 {
-	uint64_t *from = key, *to = key_work, differs = 0;
+	uint64_t *from = key, *to = key_work, differs = 0, most = 0;
 	size_t *from_order = order, *to_order = order_work;
+#pragma omp parallel for schedule(static) reduction(| : differs) reduction(max : most) if (n > 65536)
 	for (size_t i = 0; i < n; i++)
-		differs |= key[i] ^ key[0];
+		differs |= key[i] ^ key[0], most = key[i] > most ? key[i] : most;
+	if (most < counted_most && order_by_counts(n, (size_t)most + 1, key, (uint32_t *)key_work, order))
+		return;
 	if (!(differs >> 32) && n <= UINT32_MAX) {
 		order_halves(n, (uint32_t)differs, key, key_work, (uint64_t *)order_work, order);
 		return;

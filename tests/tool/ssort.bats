@@ -6,6 +6,8 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 @test "particles come in the order of their cells, x fastest, equal cells in the order they had" {
 	printf 'x y id\n3.5 3.5 1\n0.5 0.5 2\n1.5 0.2 3\n0.9 0.1 4\n0.5 1.5 5\n-1 -9 6\n4 4 7\n' >t
 	[ "$(stab t --box 0,4 --cells 4 --number 2>&1 | head -c 0; stab t --box 0,4 --cells 4 | ssort | ids)" = "2 4 6 3 5 1 7" ]
+	printf 'x y id\n5 1.5 8\n3.5 1.5 9\n' >t # beyond the last cell
+	[ "$(stab t --box 0,4 --cells 4 | ssort | ids)" = "8 9" ]
 }
 
 @test "a periodic axis wraps" {
@@ -84,13 +86,16 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 	[ "$(wc -l <rows)" -ge 3000 ]
 }
 
+# Few cells, which are counted, and more than are counted.
 @test "many particles in a random order: by three threads the order of one, which is stable, and the values travel together" {
-	pinit uniform -n 70001 --cells 40 --dispersion 1 --seed 3 >a
-	ssort --threads 3 --no-history a >three
-	ssort --threads 1 --no-history a | cmp - three
-	scalc 'cell = floor(40*x) + 40*floor(40*y) + 1600*floor(40*z)' <three | stab --plain |
-		awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["cell"] == last && $c["id"] < id { bad = 1 }
-			$c["cell"] != last && seen[$c["cell"]]++ { bad = 1 } { last = $c["cell"]; id = $c["id"]; n++ } END { exit bad || n != 70001 }'
-	ssort --by id <three >back
-	scmp --by-index --tolerance 0 a back
+	for cells in 12 40 128; do
+		pinit uniform -n 70001 --cells $cells --dispersion 1 --seed 3 >a
+		ssort --threads 3 --no-history a >three
+		ssort --threads 1 --no-history a | cmp - three
+		scalc "cell = floor($cells*x) + $cells*floor($cells*y) + $cells^2*floor($cells*z)" <three | stab --plain |
+			awk 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["cell"] == last && $c["id"] < id { bad = 1 }
+				$c["cell"] != last && seen[$c["cell"]]++ { bad = 1 } { last = $c["cell"]; id = $c["id"]; n++ } END { exit bad || n != 70001 }'
+		ssort --by id <three >back
+		scmp --by-index --tolerance 0 a back
+	done
 }
