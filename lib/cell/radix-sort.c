@@ -1,6 +1,6 @@
 /* A stable order. Keys that are few, as those of cells with particles in each, are counted, and every particle goes to its place at once; others by radix sort,
- * least digit first, 11 bits a pass, without the digits that are equal in all keys. A stable order is unique, so it is the same for any number of threads. Cost:
- * two passes over the keys; of radix sort N per pass, of 8 bytes for up to 2^32 cells and particles, and at most 3 passes for these.
+ * least digit first, 11 bits a pass, without the digits that are equal in all keys. A stable order is unique, so it is the same for any number of threads.
+ * Cost: two passes over the keys; of radix sort N per pass, of 8 bytes for up to 2^32 cells and particles, and at most 3 passes for these.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
