@@ -1,7 +1,7 @@
 /* Esirkepov's current of ways whose ends have the same points, for cic and tsc, on a line pcs too: most ways in a step that Courant's condition
  * limits. Each is a few numbers of its cell, those of current-tile.c: along x q p_x(i) [A_y A_z + D_y D_z/12] for every i, y and z, and likewise
- * along y and z. They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. The other ways are left
- * to current-tile.c. Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of
+ * along y and z. They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. Ways that leave their
+ * points on one axis are such numbers of two cells. The other ways, on more than one axis or out of the tile, are left to current-tile.c. Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of
  * an operation each. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "current/current-cells.h"
 #include "transfer/tile-by-axis.h"
@@ -29,7 +29,7 @@ struct pm_current_cells *pm_current_cells_free(struct pm_current_cells *t)
 	return pm_free(t);
 }
 
-enum { width_most = 4, values_most = 56, fours = 4, piece = 32 };
+enum { width_most = 4, values_most = 56, fours = 4, piece = 32, nothing = PM_TILE_ORDER_PACK };
 _Static_assert((int)PM_CURRENT_CELL_ROWS == (int)PM_TILE_CELLS / (int)piece, "");
 
 typedef pm_by_axis four; /* of four particles */
@@ -37,31 +37,36 @@ typedef int32_t four_int __attribute__((vector_size(fours * sizeof(int32_t))));
 
 /* Along an axis, of four particles: mean and change of the weights, and the charge passed from each point to the next. */
 struct along {
-	four mean[width_most], change[width_most], passed[width_most];
+	four mean[width_most + 1], change[width_most + 1], passed[width_most + 1];
 };
 
 /* The other axes of a component, where they are below dim. */
 PM_SIMD_INLINE int first_other(int c) { return c == 0 ? 1 : 0; }
 PM_SIMD_INLINE int second_other(int c) { return c == 2 ? 1 : 2; }
 
-/* `same`: which have both ends between the same points. */
-PM_SIMD_INLINE four_int find_along(int width, const struct pm_current_cells *t, int d, size_t i, struct along *a, pm_mask_by_axis *same)
+/* Of ways from u on; leaves: to the next cell below or above, with one point more than the kernel has. `same`: which have both ends between the same points.
+ * Returns the cell of the first point, from the tile's on. */
+PM_SIMD_INLINE four_int find_along(int width, bool leaves, const struct pm_current_cells *t, int d, four u, four way, struct along *a, pm_mask_by_axis *same)
 {
-	const four way = *(const pm_simd4_at *)(t->way[d] + i);
 	pm_simd4_int_at cell;
 	four from[width_most], to[width_most], sum = {0};
-	const four begins = pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell), ends = begins + way; /* u >= 0 */
+	const four begins = pm_simd4_split(u, &cell), ends = begins + way; /* u >= 0 */
+	const pm_mask_by_axis below = ends < 0;
 	find_by_axis(t->kernel, width, width - 1, begins - t->shift, from);
-	find_by_axis(t->kernel, width, width - 1, ends - t->shift, to);
+	find_by_axis(t->kernel, width, width - 1, leaves ? ends - t->shift + where(below, all_axes(1), all_axes(-1)) : ends - t->shift, to);
 	PM_SIMD_UNROLL
-	for (int k = 0; k < width; k++) {
-		a->mean[k] = 0.5 * (from[k] + to[k]);
-		a->change[k] = to[k] - from[k];
+	for (int k = 0; k < width + leaves; k++) {
+		const four first = k < width ? from[k] : all_axes(0), last = k < width ? to[k] : all_axes(0);
+		const four here = leaves ? where(below, k ? from[k - 1] : all_axes(0), first) : first;
+		const four there = leaves ? where(below, last, k ? to[k - 1] : all_axes(0)) : last;
+		a->mean[k] = 0.5 * (here + there);
+		a->change[k] = there - here;
 		sum -= a->change[k];
 		a->passed[k] = sum;
 	}
-	*same &= (ends >= 0) & (ends < 1);
-	return cell - (int32_t)t->cell[d];
+	*same &= ~below & (ends < 1);
+	const four_int first = cell - (int32_t)t->cell[d];
+	return leaves ? first + __builtin_convertvector(below, four_int) : first;
 }
 
 /* The numbers of component c, of a charge q (from dim on of what it carries): [along it][second other][first other]; returns how many. */
@@ -100,34 +105,45 @@ PM_SIMD_INLINE void to_sums(double *const sums[fours], bool one, int k, four *va
 			*(pm_simd4_at *)(sums[l] + k) += value[l];
 }
 
-/* Four at a time: further ones without charge. */
+static void put(struct pm_current_cells *t, size_t i, int d, double u)
+{
+	if (d < t->dim)
+		t->u[d][i] = u, t->way[d][i] = 0;
+	else
+		t->along[d - t->dim][i] = 0;
+	t->q[i] = 0;
+}
+
+/* Four at a time: further ones without charge. Number `nothing` is in the first cell, which has a next one. */
 static void fill_up(struct pm_current_cells *t)
 {
-	for (size_t i = t->count; i % fours; i++) {
-		for (int d = 0; d < t->dim; d++)
-			t->u[d][i] = t->u[d][i - 1], t->way[d][i] = 0;
-		for (int d = t->dim; d < 3; d++)
-			t->along[d - t->dim][i] = 0;
-		t->q[i] = 0;
+	for (int d = 0; d < 3; d++) {
+		for (size_t i = t->count; i % fours; i++)
+			put(t, i, d, t->u[d][i - 1]);
+		put(t, nothing, d, (double)t->cell[d]);
 	}
 }
 
+/* Of the number of a cell in the tile, below those of an axis. */
+PM_SIMD_INLINE int bits_below(int dim, int d) { return (d > 0 ? pm_tile_shift[dim][0] : 0) + (d > 1 ? pm_tile_shift[dim][1] : 0); }
+
 PM_SIMD_INLINE four masked(const double *from, pm_mask_by_axis on) { return (four)((pm_mask_by_axis) * (const pm_simd4_at *)from & on); }
 
-PM_SIMD_INLINE size_t add(int dim, int width, struct pm_current_cells *t, uint32_t *others)
+PM_SIMD_INLINE size_t add_within(int dim, int width, struct pm_current_cells *t, uint32_t *others)
 {
-	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours, *shift = pm_tile_shift[dim];
+	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	size_t left = 0;
 	fill_up(t);
 	for (size_t i = 0; i < t->count; i += fours) {
 		struct along axes[3];
 		four value[values_most];
 		pm_mask_by_axis same = {-1, -1, -1, -1};
-		four_int at = find_along(width, t, 0, i, &axes[0], &same);
-		if (dim > 1)
-			at += find_along(width, t, 1, i, &axes[1], &same) << shift[0];
-		if (dim > 2)
-			at += find_along(width, t, 2, i, &axes[2], &same) << (shift[0] + shift[1]);
+		four_int at = {0};
+		PM_SIMD_UNROLL
+		for (int d = 0; d < dim; d++) {
+			const four u = *(const pm_simd4_at *)(t->u[d] + i), way = *(const pm_simd4_at *)(t->way[d] + i);
+			at += find_along(width, false, t, d, u, way, &axes[d], &same) << bits_below(dim, d);
+		}
 		double *sums[fours];
 		PM_SIMD_UNROLL
 		for (int l = 0; l < fours; l++) {
@@ -148,6 +164,103 @@ PM_SIMD_INLINE size_t add(int dim, int width, struct pm_current_cells *t, uint32
 			for (int k = 0; k < each; k += fours)
 				to_sums(sums, false, k, value + k);
 	}
+	return left;
+}
+
+/* ---- ways that leave their points on one axis ---- */
+
+/* By axis; room for `nothing` in the last four, and for a fourth list that has none. */
+struct leaving {
+	uint32_t number[4][PM_TILE_ORDER_PACK + fours];
+	size_t count[4];
+};
+
+PM_SIMD_INLINE four four_of(const double *from, const uint32_t *i) { return (four){from[i[0]], from[i[1]], from[i[2]], from[i[3]]}; }
+
+/* Takes those out of `others` that end in the next cell on one axis, within the tile; how many are left. */
+PM_SIMD_INLINE size_t find_leaving(int dim, const struct pm_current_cells *t, uint32_t *others, size_t n, struct leaving *to)
+{
+	size_t left = 0, filled = n;
+	for (; filled % fours; filled++)
+		others[filled] = nothing;
+	for (size_t k = 0; k < filled; k += fours) {
+		four_int axis = {0}, axes = {0}, outside = {0};
+		PM_SIMD_UNROLL
+		for (int d = 0; d < dim; d++) {
+			pm_simd4_int_at cell;
+			const four ends = pm_simd4_split(four_of(t->u[d], others + k), &cell) + four_of(t->way[d], others + k);
+			const four_int side = __builtin_convertvector(ends < 0, four_int) - __builtin_convertvector(ends >= 1, four_int), moved = side != 0;
+			axis += moved & d;
+			axes -= moved;
+			outside |= (cell - (int32_t)t->cell[d] + side) >> pm_tile_shift[dim][d];
+		}
+		const four_int one = (axes == 1) & (outside == 0);
+		for (int l = 0; l < fours; l++) {
+			const uint32_t i = others[k + (size_t)l];
+			to->number[axis[l]][to->count[axis[l]]] = i, to->count[axis[l]] += (size_t)-one[l];
+			others[left] = i, left += (size_t)(one[l] + 1);
+		}
+	}
+	return left - (filled - n); /* they come last */
+}
+
+/* The last point of axis d alone: the others are those of the cell before. */
+PM_SIMD_INLINE void keep_last(int width, struct along *a)
+{
+	PM_SIMD_UNROLL
+	for (int k = 0; k < width; k++) {
+		a->mean[k] = k == width - 1 ? a->mean[width] : all_axes(0);
+		a->change[k] = k == width - 1 ? a->change[width] : all_axes(0);
+		a->passed[k] = k == width - 2 ? a->passed[width - 1] : all_axes(0);
+	}
+}
+
+PM_SIMD_INLINE void add_leaving(int dim, int width, int d, struct pm_current_cells *t, struct leaving *list)
+{
+	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
+	for (size_t k = list->count[d]; k % fours; k++)
+		list->number[d][k] = nothing;
+	for (size_t k = 0; k < list->count[d]; k += fours) {
+		struct along axes[3];
+		four value[values_most], q[3];
+		const uint32_t *i = list->number[d] + k;
+		pm_mask_by_axis same = {0};
+		four_int at = {0};
+		PM_SIMD_UNROLL
+		for (int e = 0; e < dim; e++)
+			at += find_along(width, e == d, t, e, four_of(t->u[e], i), four_of(t->way[e], i), &axes[e], &same) << bits_below(dim, e);
+		for (int e = 0; e < 3; e++)
+			q[e] = four_of(e < dim ? t->q : t->along[e - dim], i);
+		PM_SIMD_UNROLL
+		for (int cell = 0; cell < 2; cell++, at += 1 << bits_below(dim, d)) {
+			double *sums[fours];
+			PM_SIMD_UNROLL
+			for (int l = 0; l < fours; l++) {
+				t->used[at[l] / piece] = 1;
+				sums[l] = t->sums + at[l] * each;
+			}
+			int n = find_values(dim, width, 0, q[0], axes, value);
+			n += find_values(dim, width, 1, q[1], axes, value + n);
+			n += find_values(dim, width, 2, q[2], axes, value + n);
+			for (int e = n; e < each; e++)
+				value[e] = all_axes(0);
+			for (int e = 0; e < each; e += fours)
+				to_sums(sums, false, e, value + e);
+			keep_last(width, &axes[d]);
+		}
+	}
+}
+
+PM_SIMD_INLINE size_t add(int dim, int width, struct pm_current_cells *t, uint32_t *others)
+{
+	struct leaving list;
+	memset(list.count, 0, sizeof list.count);
+	const size_t left = find_leaving(dim, t, others, add_within(dim, width, t, others), &list);
+	add_leaving(dim, width, 0, t, &list);
+	if (dim > 1)
+		add_leaving(dim, width, 1, t, &list);
+	if (dim > 2)
+		add_leaving(dim, width, 2, t, &list);
 	return left;
 }
 
