@@ -1,8 +1,9 @@
-/* Esirkepov's current of ways whose ends have the same points, for cic and tsc, on a line pcs too: most ways in a step that Courant's condition
- * limits. Each is a few numbers of its cell, those of current-tile.c: along x q p_x(i) [A_y A_z + D_y D_z/12] for every i, y and z, and likewise
- * along y and z. They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. Ways that leave their
- * points on one axis are such numbers of two cells. The other ways, on more than one axis or out of the tile, are left to current-tile.c. Source: Esirkepov 2001; sums of cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of
- * an operation each. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Esirkepov's current of ways whose ends have the same points, for cic and tsc, on a line pcs too: most ways in a step that Courant's condition limits.
+ * Each is a few numbers of its cell, those of current-tile.c: along x q p_x(i) [A_y A_z + D_y D_z/12] for every i, y and z, and likewise along y and z.
+ * They are found for four particles at once, turned, added to the sums of the cells, and these to the mesh once a job. Ways that leave their points on one
+ * axis are such numbers of two cells. The other ways, on more than one axis or out of the tile, are left to current-tile.c. Source: Esirkepov 2001; sums of
+ * cells as in VPIC, Bowers et al. 2008, Physics of Plasmas 15, 055703. Cost: as many numbers, a quarter of an operation each.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "current/current-cells.h"
 #include "transfer/tile-by-axis.h"
 
