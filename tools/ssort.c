@@ -8,6 +8,10 @@ struct config {
 	int64_t every;
 };
 
+struct state {
+	bool sorted, inside; /* frames have come that are sorted, that are inside a step */
+};
+
 static const struct pm_option options[] = {
 	{.name = "set", .kind = PM_TEXT, .unit = "NAME", PM_AT(order.set), .text = "sort only this set (default: every set)"},
 	{.name = "by", .kind = PM_TEXT, .unit = "EXPRESSION", PM_AT(order.by), .text = "sort by this expression, ascending, instead of by cell: id, mass, "
@@ -22,11 +26,22 @@ static const struct pm_option options[] = {
 static int declare(struct pm_stage *s, struct pm_frame *f)
 {
 	const struct config *c = s->config;
+	struct state *state = s->state;
 	int status = pm_particle_order_check(&c->order, f);
+	if (!s->trial)
+		state->inside |= f->substep, state->sorted |= !f->substep;
 	return status ? status : f->substep || f->step % c->every ? PM_PASS : pm_particle_order_declare(&c->order, f);
 }
 
 static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_particle_order_apply(&((const struct config *)s->config)->order, f); }
+
+static int end(struct pm_stage *s)
+{
+	const struct state *state = s->state;
+	if (state->inside && !state->sorted)
+		pm_note(s, "nothing is sorted: every frame lies inside a step (ssort behind the word that ends it)");
+	return 0;
+}
 
 static bool divided(const struct pm_stage *s, const struct pm_frame *f) { return s && f; }
 
@@ -49,9 +64,11 @@ const struct pm_tool tool_ssort = {
 	.reads = "x, or the fields in --by",
 	.changes = "the order of all fields of the set",
 	.config = sizeof(struct config),
+	.state = sizeof(struct state),
 	.options = options,
 	.examples = examples,
 	.declare = declare,
 	.frame = frame,
 	.divided = divided,
+	.end = end,
 };

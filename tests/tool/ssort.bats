@@ -48,7 +48,10 @@ ids() { stab --plain | awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ==
 
 @test "a frame inside a step is passed on unchanged" {
 	pinit plummer -n 50 | push drift/2 --no-history >a || skip "push is not there"
-	ssort --no-history <a | cmp - a
+	ssort --no-history <a 2>said | cmp - a
+	grep -q 'nothing is sorted: every frame lies inside a step' said
+	pinit plummer -n 50 | cycle -n 2 'push drift/2 | ssort | push drift/2' 2>&1 >/dev/null | grep -q 'nothing is sorted'
+	[ -z "$(pinit plummer -n 50 | cycle -n 2 'push drift/2 | push drift/2 | ssort --every 7' 2>&1 >/dev/null | grep sorted)" ]
 }
 
 @test "sets without particles are sorted; --set chooses one" {
