@@ -13,10 +13,11 @@ struct run {
 	double *x[3], *q, *mesh[3], *out[3];
 };
 
-/* Particles at random, or the same in the order of p2m's tiles. */
+/* Particles at random, or the same in the order of p2m's tiles, which kernels of an odd number of points have half a cell lower. */
 static void place(struct run *r, bool ordered)
 {
 	int dim = r->t.grid.dim;
+	const double lower = r->t.kernel && r->t.kernel->width % 2 ? 0.5 : 0;
 	size_t cells = r->t.grid.cells[0], volume = r->per_cell, edge[3];
 	for (int d = 0; d < dim; d++) {
 		edge[d] = (size_t)1 << pm_tile_shift[dim][d];
@@ -29,7 +30,7 @@ static void place(struct run *r, bool ordered)
 		for (int d = 0; d < dim; d++) {
 			double u[2];
 			pm_random(1, p, (uint64_t)d, u);
-			r->x[d][p] = ordered ? (double)(tile % (cells / edge[d]) * edge[d]) + u[0] * (double)edge[d] : u[0] * (double)cells;
+			r->x[d][p] = ordered ? (double)(tile % (cells / edge[d]) * edge[d]) + u[0] * (double)edge[d] - lower : u[0] * (double)cells;
 			tile /= cells / edge[d];
 		}
 		r->q[p] = 1;
@@ -187,12 +188,15 @@ int main(int argc, char **argv)
 			n++;
 	bool peer = finufft_open(&finufft);
 	for (int ordered = 0; ordered < 2; ordered++) {
-		place(&r, ordered);
+		if (!ordered)
+			place(&r, false);
 		if (peer && !ordered)
 			finufft_fill(&finufft, dim, cells, r.n, r.x);
 		pm_threads_use(1);
 		for (int i = 0; i < n; i++) {
 			r.t.kernel = pm_kernel_find(names[i]);
+			if (ordered)
+				place(&r, true);
 			for (r.gathered = 0; r.t.kernel && r.gathered < 2; r.gathered++)
 				measure(&r, peer ? &finufft : NULL, ordered);
 		}
