@@ -6,7 +6,7 @@
 
 #include "transfer/tile-order.h"
 
-enum { batch = PM_TILE_ORDER_PACK, ahead = 16 }; /* ahead: the place of a later record is prefetched */
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8 }; /* ahead: the place of a later record is prefetched; line: doubles per cache line */
 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
@@ -217,23 +217,98 @@ static void add_up(struct pm_tile_order *o)
 	o->begin[columns] = at;
 }
 
+/* Numbers of m particles of a chunk from p on that ends at `end`: value[n][m], and where the stream has those of the next ones, to be fetched. */
+struct moved {
+	size_t p, m, end;
+	const double *value[PM_COMPONENTS + 3], *next[PM_COMPONENTS + 3];
+};
+
+/* One by one, from the i-th on. */
+static void move_rest(const struct pm_tile_order *o, const struct moved *b, size_t i, size_t *cursor)
+{
+	const size_t stride = (size_t)o->stride;
+	const int n = o->dim + o->nvalues;
+	for (; i < b->m; i++) {
+		const size_t p = b->p + i;
+		const uint32_t soon = o->tile[p + ahead < b->end ? p + ahead : p];
+		double *record = o->records + stride * cursor[o->tile[p]]++;
+		__builtin_prefetch(o->records + stride * cursor[soon], 1);
+		for (int c = 0; c < n; c++) {
+			if (i % line == 0)
+				__builtin_prefetch(b->next[c] + i);
+			record[c] = b->value[c][i];
+		}
+	}
+}
+
+/* Lanes 4 half..4 half + 3, of which n are a record. */
+PM_SIMD_INLINE void put_record(int n, pm_simd v, size_t half, double *record)
+{
+#ifdef PM_SIMD_EIGHT
+	const pm_simd4_at four = half ? __builtin_shufflevector(v, v, 4, 5, 6, 7) : __builtin_shufflevector(v, v, 0, 1, 2, 3);
+#else
+	const pm_simd4_at four = v;
+	(void)half;
+#endif
+	if (n == 4)
+		*(pm_simd4_at *)record = four;
+	else
+		*(pm_simd2_at *)record = __builtin_shufflevector(four, four, 0, 1);
+	if (n == 3)
+		record[2] = four[2];
+}
+
+/* n numbers a record, n <= 4, turned in registers, so that a record is one store or two. The next ones are fetched between the stores: the memory then
+ * reads while it writes. How many are moved. */
+PM_SIMD_INLINE size_t move_turned(int n, const struct pm_tile_order *o, const struct moved *b, size_t *cursor)
+{
+	const size_t stride = (size_t)o->stride;
+	size_t i = 0;
+	if ((int)PM_SIMD_PART != (int)PM_SIMD_WIDTH)
+		return 0;
+	for (; i + PM_SIMD_WIDTH <= b->m; i += PM_SIMD_WIDTH) {
+		pm_simd column[4], row[4];
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 4; c++) {
+			column[c] = pm_simd_load_any(b->value[c < n ? c : 0] + i);
+			if (c < n)
+				__builtin_prefetch(b->next[c] + i);
+		}
+		pm_simd_turn(column, row);
+		PM_SIMD_UNROLL
+		for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
+			const size_t p = b->p + i + l;
+			const uint32_t soon = o->tile[p + ahead < b->end ? p + ahead : p];
+			double *record = o->records + stride * cursor[o->tile[p]]++;
+			__builtin_prefetch(o->records + stride * cursor[soon], 1);
+			put_record(n, row[l % 4], l / 4, record);
+		}
+	}
+	return i;
+}
+
 /* cursor: the places of the chunk's first record in each tile; used up. */
 static void move_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
 {
-	const size_t stride = (size_t)o->stride;
-	double u[3][batch];
-	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
-		size_t m = to - p < batch ? to - p : batch;
-		locate(o, p, m, u);
-		for (size_t i = 0; i < m; i++) {
-			uint32_t tile = o->tile[p + i], soon = o->tile[p + i + ahead < to ? p + i + ahead : p + i];
-			double *record = o->records + stride * cursor[tile]++;
-			__builtin_prefetch(o->records + stride * cursor[soon], 1);
-			for (int d = 0; d < o->dim; d++)
-				record[d] = u[d][i];
-			for (int c = 0; c < o->nvalues; c++)
-				record[o->dim + c] = pm_column_at(&o->values[c], p + i);
+	const int n = o->dim + o->nvalues;
+	struct moved b = {.p = chunk_from(o, chunk), .end = chunk_to(o, chunk)};
+	double u[3][batch], few[PM_COMPONENTS][batch];
+	for (; b.p < b.end; b.p += b.m) {
+		b.m = b.end - b.p < batch ? b.end - b.p : batch;
+		locate(o, b.p, b.m, u);
+		for (int c = 0; c < n; c++) {
+			const struct pm_column *from = c < o->dim ? &o->x[c] : &o->values[c - o->dim];
+			b.value[c] = c < o->dim ? u[c] : pm_column_take(from, b.p, b.m, few[c - o->dim]);
+			b.next[c] = from->doubles ? from->doubles + b.p + PM_TILE_AHEAD : b.value[c];
 		}
+		size_t done = 0;
+		if (n == 2)
+			done = move_turned(2, o, &b, cursor);
+		else if (n == 3)
+			done = move_turned(3, o, &b, cursor);
+		else if (n == 4)
+			done = move_turned(4, o, &b, cursor);
+		move_rest(o, &b, done, cursor);
 	}
 }
 
@@ -753,13 +828,16 @@ struct batch {
 	size_t p, m, end;
 };
 
-/* The records of a batch side by side, in the order of the stream; a stray's is zero. */
-static void collect(const struct pm_tile_order *o, const double *results, size_t stride, const struct batch *b, size_t *cursor, int nvalues, double *to)
+/* The records of a batch side by side, in the order of the stream; a stray's is zero. Where they go to is fetched meanwhile. */
+static void collect(const struct pm_tile_order *o, const double *results, size_t stride, const struct batch *b, size_t *cursor, int nvalues,
+	const struct pm_tile_results *r, double *to)
 {
 	for (size_t i = 0; i < b->m; i++) {
 		uint32_t tile = o->tile[b->p + i], soon = o->tile[b->p + i + ahead < b->end ? b->p + i + ahead : b->p + i];
 		const double *record = results + stride * cursor[tile]++;
 		__builtin_prefetch(results + stride * cursor[soon]);
+		for (int c = 0; c < nvalues && i % line == 0; c++)
+			__builtin_prefetch(r->to[c].doubles ? r->to[c].doubles + b->p + i : (const double *)results, 1);
 		for (int c = 0; c < nvalues; c++)
 			to[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
 	}
@@ -800,7 +878,7 @@ int pm_tile_order_return(const struct pm_tile_order *o, const double *results, i
 		size_t *cursor = cursors + (size_t)chunk * columns;
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
 			size_t m = end - p < batch ? end - p : batch;
-			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, records);
+			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, r, records);
 			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, r);
 		}
 	}
