@@ -152,6 +152,19 @@ void pm_ratio_range(const struct pm_frame *f, const char *set, const char *stren
 	}
 }
 
+/* To so many digits that it does not look like the face it is beyond. */
+static int digits_apart(double x, double low, double high)
+{
+	const double face = x < low ? low : high;
+	char a[32], b[32];
+	int digits = 6;
+	do {
+		snprintf(a, sizeof a, "%.*g", digits, x);
+		snprintf(b, sizeof b, "%.*g", digits, face);
+	} while (!strcmp(a, b) && ++digits < 17);
+	return digits;
+}
+
 int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm_mesh *m, const struct pm_transfer *t, const char *remedy)
 {
 	char at[96] = "";
@@ -159,7 +172,7 @@ int pm_strays_refuse(const struct pm_strays *s, const char *set, const struct pm
 	double low = m->lo[d], high = m->lo[d] + (double)m->cells[d] * m->h[d];
 	pm_world_place(2, 0, 0, s->first);
 	for (int c = 0, used = 0; c < dim; c++)
-		used += snprintf(at + used, sizeof at - (size_t)used, "%s%.6g", c ? ", " : "", s->x[c]);
+		used += snprintf(at + used, sizeof at - (size_t)used, "%s%.*g", c ? ", " : "", c == d ? digits_apart(s->x[c], low, high) : 6, s->x[c]);
 	if (s->x[d] >= low && s->x[d] <= high)
 		return pm_fail(PM_DATA, "particle %zu of '%s' at (%s) is too near the open face %c = %g of mesh '%s': the support of %s must stay inside (%s)",
 			s->first, set, at, "xyz"[d], s->x[d] - low < high - s->x[d] ? low : high, m->name, t->kernel->name, remedy);

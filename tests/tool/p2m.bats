@@ -101,6 +101,9 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	printf 'x mass\n1.25 2\n4.5 1\n-3 1\n' | line open 8 >a
 	run -1 p2m --outside error <a
 	[[ $output =~ "p2m: frame 1: particle 1 of 'matter' at (4.5) is outside mesh 'mesh', 0 <= x <= 4" ]]
+	printf 'x mass\n4.0000001 2\n' | line open 8 >b # a position of single precision beside a wall
+	run -1 p2m --outside error <b
+	[[ $output =~ "at (4.0000001) is outside mesh 'mesh', 0 <= x <= 4" ]]
 	printf 'x mass\n1.25 2\n3.75 1\n' | line open 8 >b
 	run -1 p2m --outside error <b
 	[[ $output =~ "particle 1 of 'matter' at (3.75) is too near the open face x = 4" ]]
