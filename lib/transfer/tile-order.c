@@ -241,7 +241,7 @@ static void move_rest(const struct pm_tile_order *o, const struct moved *b, size
 	}
 }
 
-/* Lanes 4 half..4 half + 3, of which n are a record. */
+/* Lanes 4 half..4 half + 3: a record of four numbers, or the first two of one. */
 PM_SIMD_INLINE void put_record(int n, pm_simd v, size_t half, double *record)
 {
 #ifdef PM_SIMD_EIGHT
@@ -254,8 +254,6 @@ PM_SIMD_INLINE void put_record(int n, pm_simd v, size_t half, double *record)
 		*(pm_simd4_at *)record = four;
 	else
 		*(pm_simd2_at *)record = __builtin_shufflevector(four, four, 0, 1);
-	if (n == 3)
-		record[2] = four[2];
 }
 
 /* n numbers a record, n <= 4, turned in registers, so that a record is one store or two. The next ones are fetched between the stores: the memory then
@@ -282,6 +280,8 @@ PM_SIMD_INLINE size_t move_turned(int n, const struct pm_tile_order *o, const st
 			double *record = o->records + stride * cursor[o->tile[p]]++;
 			__builtin_prefetch(o->records + stride * cursor[soon], 1);
 			put_record(n, row[l % 4], l / 4, record);
+			if (n == 3) /* a further store takes less than to turn a third number */
+				record[2] = b->value[2][i + l];
 		}
 	}
 	return i;
@@ -832,12 +832,13 @@ struct batch {
 static void collect(const struct pm_tile_order *o, const double *results, size_t stride, const struct batch *b, size_t *cursor, int nvalues,
 	const struct pm_tile_results *r, double *to)
 {
+	for (int c = 0; c < nvalues; c++)
+		for (size_t i = 0; i < b->m && r->to[c].doubles; i += line)
+			__builtin_prefetch(r->to[c].doubles + b->p + i, 1);
 	for (size_t i = 0; i < b->m; i++) {
 		uint32_t tile = o->tile[b->p + i], soon = o->tile[b->p + i + ahead < b->end ? b->p + i + ahead : b->p + i];
 		const double *record = results + stride * cursor[tile]++;
 		__builtin_prefetch(results + stride * cursor[soon]);
-		for (int c = 0; c < nvalues && i % line == 0; c++)
-			__builtin_prefetch(r->to[c].doubles ? r->to[c].doubles + b->p + i : (const double *)results, 1);
 		for (int c = 0; c < nvalues; c++)
 			to[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
 	}
