@@ -39,10 +39,11 @@ PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *
 		u[c] = pm_simd_fma(pm_simd_all(0.5 * dt), pm_simd_load_any(p->acc[c] + l), u[c]);
 }
 
-/* 1/gamma of u = gamma v; rounded as roots and quotients are, so that one component is never above c. */
+/* 1/gamma of u = gamma v; rounded as roots and quotients are, so that one component is never above c. NaN where u^2 overflows, which would be at rest. */
 PM_SIMD_INLINE pm_simd slower_of(const pm_simd u[3], double per)
 {
-	return 1 / pm_simd_sqrt(pm_simd_fma(pm_magnetic_square(u), pm_simd_all(per), pm_simd_all(1)));
+	const pm_simd gamma2 = pm_simd_fma(pm_magnetic_square(u), pm_simd_all(per), pm_simd_all(1));
+	return 1 / pm_simd_sqrt(gamma2) + (gamma2 - gamma2);
 }
 
 /* In loops that are short enough for the next particles to begin while those under way wait for their roots and quotients. */
