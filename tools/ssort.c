@@ -9,7 +9,7 @@ struct config {
 };
 
 struct state {
-	bool sorted, inside; /* frames have come that are sorted, that are inside a step */
+	bool whole, inside; /* frames have come that are whole steps, that are inside one */
 };
 
 static const struct pm_option options[] = {
@@ -29,7 +29,7 @@ static int declare(struct pm_stage *s, struct pm_frame *f)
 	struct state *state = s->state;
 	int status = pm_particle_order_check(&c->order, f);
 	if (!s->trial)
-		state->inside |= f->substep, state->sorted |= !f->substep;
+		state->inside |= f->substep, state->whole |= !f->substep;
 	return status ? status : f->substep || f->step % c->every ? PM_PASS : pm_particle_order_declare(&c->order, f);
 }
 
@@ -38,7 +38,7 @@ static int frame(struct pm_stage *s, struct pm_frame *f) { return pm_particle_or
 static int end(struct pm_stage *s)
 {
 	const struct state *state = s->state;
-	if (state->inside && !state->sorted)
+	if (state->inside && !state->whole)
 		pm_note(s, "nothing is sorted: every frame lies inside a step (ssort behind the word that ends it)");
 	return 0;
 }

@@ -128,16 +128,39 @@ static void fill_up(struct pm_current_cells *t)
 /* Of the number of a cell in the tile, below those of an axis. */
 PM_SIMD_INLINE int bits_below(int dim, int d) { return (d > 0 ? pm_tile_shift[dim][0] : 0) + (d > 1 ? pm_tile_shift[dim][1] : 0); }
 
+/* The numbers of four ways to the sums of these cells; q: the charge, and from dim on what it carries. */
+PM_SIMD_INLINE void to_cells(int dim, int width, struct pm_current_cells *t, four_int at, const four q[3], const struct along *axes)
+{
+	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
+	four value[values_most];
+	double *sums[fours];
+	PM_SIMD_UNROLL
+	for (int l = 0; l < fours; l++) {
+		t->used[at[l] / piece] = 1;
+		sums[l] = t->sums + at[l] * each;
+	}
+	int n = find_values(dim, width, 0, q[0], axes, value); /* one by one: constants when their loops are unrolled */
+	n += find_values(dim, width, 1, q[1], axes, value + n);
+	n += find_values(dim, width, 2, q[2], axes, value + n);
+	for (int k = n; k < each; k++)
+		value[k] = all_axes(0);
+	if (sums[0] == sums[1] && sums[0] == sums[2] && sums[0] == sums[3])
+		for (int k = 0; k < each; k += fours)
+			to_sums(sums, true, k, value + k);
+	else
+		for (int k = 0; k < each; k += fours)
+			to_sums(sums, false, k, value + k);
+}
+
 PM_SIMD_INLINE four masked(const double *from, pm_mask_by_axis on) { return (four)((pm_mask_by_axis) * (const pm_simd4_at *)from & on); }
 
 PM_SIMD_INLINE size_t add_within(int dim, int width, struct pm_current_cells *t, uint32_t *others)
 {
-	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	size_t left = 0;
 	fill_up(t);
 	for (size_t i = 0; i < t->count; i += fours) {
 		struct along axes[3];
-		four value[values_most];
+		four q[3];
 		pm_mask_by_axis same = {-1, -1, -1, -1};
 		four_int at = {0};
 		PM_SIMD_UNROLL
@@ -145,25 +168,14 @@ PM_SIMD_INLINE size_t add_within(int dim, int width, struct pm_current_cells *t,
 			const four u = *(const pm_simd4_at *)(t->u[d] + i), way = *(const pm_simd4_at *)(t->way[d] + i);
 			at += find_along(width, false, t, d, u, way, &axes[d], &same) << bits_below(dim, d);
 		}
-		double *sums[fours];
 		PM_SIMD_UNROLL
 		for (int l = 0; l < fours; l++) {
 			others[left] = (uint32_t)i + (uint32_t)l;
 			left += (size_t)(same[l] + 1);
-			t->used[at[l] / piece] = 1;
-			sums[l] = t->sums + at[l] * each;
 		}
-		int n = find_values(dim, width, 0, masked(t->q + i, same), axes, value); /* one by one: constants when their loops are unrolled */
-		n += find_values(dim, width, 1, masked((dim > 1 ? t->q : t->along[0]) + i, same), axes, value + n);
-		n += find_values(dim, width, 2, masked((dim > 2 ? t->q : t->along[2 - dim]) + i, same), axes, value + n);
-		for (int k = n; k < each; k++)
-			value[k] = all_axes(0);
-		if (sums[0] == sums[1] && sums[0] == sums[2] && sums[0] == sums[3])
-			for (int k = 0; k < each; k += fours)
-				to_sums(sums, true, k, value + k);
-		else
-			for (int k = 0; k < each; k += fours)
-				to_sums(sums, false, k, value + k);
+		for (int c = 0; c < 3; c++)
+			q[c] = masked((c < dim ? t->q : t->along[c - dim]) + i, same);
+		to_cells(dim, width, t, at, q, axes);
 	}
 	return left;
 }
@@ -218,37 +230,22 @@ PM_SIMD_INLINE void keep_last(int width, struct along *a)
 
 PM_SIMD_INLINE void add_leaving(int dim, int width, int d, struct pm_current_cells *t, struct leaving *list)
 {
-	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	for (size_t k = list->count[d]; k % fours; k++)
 		list->number[d][k] = nothing;
 	for (size_t k = 0; k < list->count[d]; k += fours) {
 		struct along axes[3];
-		four value[values_most], q[3];
+		four q[3];
 		const uint32_t *i = list->number[d] + k;
 		pm_mask_by_axis same = {0};
 		four_int at = {0};
 		PM_SIMD_UNROLL
 		for (int e = 0; e < dim; e++)
 			at += find_along(width, e == d, t, e, four_of(t->u[e], i), four_of(t->way[e], i), &axes[e], &same) << bits_below(dim, e);
-		for (int e = 0; e < 3; e++)
-			q[e] = four_of(e < dim ? t->q : t->along[e - dim], i);
-		PM_SIMD_UNROLL
-		for (int cell = 0; cell < 2; cell++, at += 1 << bits_below(dim, d)) {
-			double *sums[fours];
-			PM_SIMD_UNROLL
-			for (int l = 0; l < fours; l++) {
-				t->used[at[l] / piece] = 1;
-				sums[l] = t->sums + at[l] * each;
-			}
-			int n = find_values(dim, width, 0, q[0], axes, value);
-			n += find_values(dim, width, 1, q[1], axes, value + n);
-			n += find_values(dim, width, 2, q[2], axes, value + n);
-			for (int e = n; e < each; e++)
-				value[e] = all_axes(0);
-			for (int e = 0; e < each; e += fours)
-				to_sums(sums, false, e, value + e);
-			keep_last(width, &axes[d]);
-		}
+		for (int c = 0; c < 3; c++)
+			q[c] = four_of(c < dim ? t->q : t->along[c - dim], i);
+		to_cells(dim, width, t, at, q, axes);
+		keep_last(width, &axes[d]);
+		to_cells(dim, width, t, at + (1 << bits_below(dim, d)), q, axes);
 	}
 }
 
