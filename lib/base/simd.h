@@ -268,6 +268,13 @@ PM_SIMD_INLINE pm_simd pm_simd_where_not_below(pm_simd a, pm_simd b, pm_simd v)
 #endif
 }
 
+/* yes where a < b, else no. */
+PM_SIMD_INLINE pm_simd pm_simd_where_below(pm_simd a, pm_simd b, pm_simd yes, pm_simd no)
+{
+	const pm_simd_bits below = a < b;
+	return (pm_simd)((below & (pm_simd_bits)yes) | (~below & (pm_simd_bits)no));
+}
+
 /* v in lanes from..to-1, else other. */
 PM_SIMD_INLINE pm_simd pm_simd_between(size_t from, size_t to, pm_simd v, pm_simd other)
 {
@@ -559,6 +566,20 @@ PM_SIMD_INLINE pm_simd pm_simd_rsqrt(pm_simd x)
 #ifdef __AVX512F__
 	const pm_simd e = pm_simd_fnma(x * y, y, pm_simd_all(1));
 	return pm_simd_fma(y * e, pm_simd_fma(e, pm_simd_fma(e, pm_simd_all(0.3125), pm_simd_all(0.375)), pm_simd_all(0.5)), y);
+#else
+	return y;
+#endif
+}
+
+/* The same to half a last digit and little more: with what rounding leaves out of x y, and the terms to fourth order, which have one sign. Elsewhere a root
+ * and a quotient, to one and a half. */
+PM_SIMD_INLINE pm_simd pm_simd_rsqrt_near(pm_simd x)
+{
+	const pm_simd y = pm_simd_rsqrt_start(x);
+#ifdef __AVX512F__
+	const pm_simd z = x * y, e = pm_simd_fnma(pm_simd_fma(x, y, -z), y, pm_simd_fnma(z, y, pm_simd_all(1)));
+	const pm_simd terms = pm_simd_fma(e, pm_simd_fma(e, pm_simd_all(35. / 128), pm_simd_all(0.3125)), pm_simd_all(0.375));
+	return pm_simd_fma(y * e, pm_simd_fma(e, terms, pm_simd_all(0.5)), y);
 #else
 	return y;
 #endif

@@ -197,14 +197,11 @@ static void lay_out(const struct pm_current *c, size_t n, const double *const x[
 	for (size_t from = 0; from < n; from += together) {
 		const size_t end = n - from < together ? n : from + together;
 		for (int d = 0; d < c->grid.dim; d++) {
-			const double *along = v[d];
-			const double h = c->grid.h[d], dt = c->dt;
-			double *restrict at = w->at[d], *restrict way = w->way[d];
-			for (size_t p = from; p < end; p++) {
-				const double a = x[d][p], b = a + dt * (along ? along[p] : 0);
-				at[p] = a;
-				way[p] = (b - a) / h;
-			}
+			memcpy(w->at[d] + from, x[d] + from, (end - from) * sizeof *x[d]);
+			if (v[d])
+				pm_tile_ways(c->dt, c->grid.h[d], end - from, x[d] + from, v[d] + from, w->way[d] + from);
+			else
+				memset(w->way[d] + from, 0, (end - from) * sizeof *w->way[d]);
 		}
 		memcpy(w->q + from, q + from, (end - from) * sizeof *q);
 		for (int d = c->grid.dim; d < 3; d++)

@@ -35,7 +35,7 @@ PM_SIMD_INLINE void pm_boris_half(bool closing, double dt, const struct pm_magne
 		pm_magnetic_turn(t, pm_simd_load_any(turn + l), v);
 		PM_SIMD_UNROLL
 		for (int c = 0; c < 3; c++)
-			pm_simd_store_any(p->changed[c] + l, closing ? v[c] : v[c] + a[c]);
+			pm_simd_store_any(p->to[c] + l, closing ? v[c] : v[c] + a[c]);
 	}
 }
 

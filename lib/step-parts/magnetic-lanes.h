@@ -28,23 +28,30 @@ PM_SIMD_INLINE const double *pm_magnetic_take(const double *from, size_t i, size
 	return few;
 }
 
-/* The pieces of the arrays for so many particles, and where their new velocities go. */
+/* The pieces of the arrays for so many particles, and where their new velocities go: as a rule to v itself, so that a kick reads a lane before it writes it. */
 struct pm_magnetic_lanes {
 	const double *v[3], *acc[3], *b[3], *charge, *mass;
-	double (*changed)[PM_MAGNETIC_LANES];
+	double *to[3];
 	bool alike;
 	double c, radiation_time; /* of struct pm_magnetic */
 };
 
-/* kick(..., lanes) finds the velocities lanes->changed of all lanes of struct pm_magnetic_lanes *lanes; an inline function, whose other arguments are
- * constants. */
+/* What a loop over single particles has found: the compiler makes vectors of it only where it stores to an array that is nobody else's. */
+PM_SIMD_INLINE void pm_magnetic_put(const struct pm_magnetic_lanes *p, double changed[3][PM_MAGNETIC_LANES])
+{
+	for (int c = 0; c < 3; c++)
+		memcpy(p->to[c], changed[c], PM_MAGNETIC_LANES * sizeof(double));
+}
+
+/* kick(..., lanes) finds the velocities lanes->to of all lanes of struct pm_magnetic_lanes *lanes; an inline function, whose other arguments are constants. */
 #define PM_MAGNETIC_LOOP(m, from, to, kick, ...) \
 	for (size_t at = (from); at < (to); at += PM_MAGNETIC_LANES) { \
 		const bool far = (to) - at > 16 * PM_MAGNETIC_LANES; \
 		const size_t many = (to) - at < PM_MAGNETIC_LANES ? (to) - at : PM_MAGNETIC_LANES; \
 		_Alignas(64) double few[11][PM_MAGNETIC_LANES], changed[3][PM_MAGNETIC_LANES]; \
-		struct pm_magnetic_lanes lanes = {.changed = changed, .alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
+		struct pm_magnetic_lanes lanes = {.alike = (m)->alike, .c = (m)->c, .radiation_time = (m)->radiation_time}; \
 		for (int c = 0; c < 3; c++) { \
+			lanes.to[c] = (m)->v[c] && many == PM_MAGNETIC_LANES ? (m)->v[c] + at : changed[c]; \
 			lanes.v[c] = pm_magnetic_take((m)->v[c], at, many, far, 0, few[c]); \
 			lanes.acc[c] = pm_magnetic_take((m)->acc[c], at, many, far, 0, few[3 + c]); \
 			lanes.b[c] = pm_magnetic_take((m)->b[c], at, many, far, 0, few[6 + c]); \
@@ -53,9 +60,7 @@ struct pm_magnetic_lanes {
 		lanes.mass = pm_magnetic_take((m)->mass, at, many, far, 1, few[10]); \
 		kick(__VA_ARGS__, &lanes); \
 		for (int c = 0; c < 3; c++) \
-			if ((m)->v[c] && many == PM_MAGNETIC_LANES) /* a constant size is no call */ \
-				memcpy((m)->v[c] + at, changed[c], PM_MAGNETIC_LANES * sizeof(double)); \
-			else if ((m)->v[c]) \
+			if ((m)->v[c] && many != PM_MAGNETIC_LANES) \
 				memcpy((m)->v[c] + at, changed[c], many * sizeof(double)); \
 	}
 

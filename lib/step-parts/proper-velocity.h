@@ -19,11 +19,11 @@ PM_SIMD_INLINE void pm_proper_load(const struct pm_magnetic_lanes *p, size_t l, 
 PM_SIMD_INLINE double pm_proper_gamma(const struct pm_magnetic_lanes *p, const double u[3]) { return sqrt(1 + pm_proper_dot(u, u) / (p->c * p->c)); }
 
 /* NaN where u^2 overflows: the quotient is 0, and the particle would be at rest. */
-PM_SIMD_INLINE void pm_proper_store(const struct pm_magnetic_lanes *p, size_t l, const double u[3])
+PM_SIMD_INLINE void pm_proper_store(const struct pm_magnetic_lanes *p, size_t l, const double u[3], double changed[3][PM_MAGNETIC_LANES])
 {
 	const double gamma = pm_proper_gamma(p, u), slower = 1 / gamma + (gamma - gamma);
 	for (int c = 0; c < 3; c++)
-		p->changed[c][l] = u[c] * slower;
+		changed[c][l] = u[c] * slower;
 }
 
 /* u += q E dt/2m. */

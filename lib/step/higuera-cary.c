@@ -8,12 +8,14 @@
 
 PM_SIMD_INLINE void kick(bool closing, double dt, const struct pm_magnetic_lanes *p)
 {
+	double changed[3][PM_MAGNETIC_LANES];
 	for (size_t l = 0; l < PM_MAGNETIC_LANES; l++) {
 		double u[3];
 		pm_proper_load(p, l, u);
 		pm_proper_higuera_cary(p, closing, dt, l, u);
-		pm_proper_store(p, l, u);
+		pm_proper_store(p, l, u, changed);
 	}
+	pm_magnetic_put(p, changed);
 }
 
 static void magnetic(bool closing, double dt, size_t from, size_t to, const struct pm_magnetic *m)

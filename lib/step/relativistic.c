@@ -2,8 +2,8 @@
  * by the frequency Omega/gamma, and half of the kick of u = gamma v; the opening half rotates, then kicks, the closing half kicks, then rotates.
  * Without a magnetic field only the kick. The frame keeps v; c is its constant.
  * Source: Boris 1970; Birdsall and Langdon 1985, section 15-4. Second order, reversible; |v| stays below c for any force. In a uniform E exact to
- * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: two inverse roots, a root and two quotients a particle,
- * and one where charges or masses differ.
+ * round-off. v near c has lost digits of gamma: 1e-16 gamma^2 of it. Cost: three inverse roots and a quotient a particle,
+ * and one more where charges or masses differ.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-parts/magnetic-lanes.h"
 #include "step-parts/plain-pass.h"
@@ -18,7 +18,7 @@ PM_SIMD_INLINE void take(const double *const from[3], size_t l, pm_simd to[3])
 		to[c] = pm_simd_load_any(from[c] + l);
 }
 
-PM_SIMD_INLINE void put(const pm_simd x[3], double to[3][lanes_of], size_t l)
+PM_SIMD_INLINE void put(const pm_simd x[3], double *const to[3], size_t l)
 {
 	PM_SIMD_UNROLL
 	for (int c = 0; c < 3; c++)
@@ -39,11 +39,13 @@ PM_SIMD_INLINE void add_acceleration(double dt, const struct pm_magnetic_lanes *
 		u[c] = pm_simd_fma(pm_simd_all(0.5 * dt), pm_simd_load_any(p->acc[c] + l), u[c]);
 }
 
-/* 1/gamma of u = gamma v; rounded as roots and quotients are, so that one component is never above c. NaN where u^2 overflows, which would be at rest. */
+/* 1/gamma of u = gamma v. Where v is c to round-off it is rounded as roots and quotients are, so that one component is never above c. NaN where u^2 overflows,
+ * which would be at rest. */
 PM_SIMD_INLINE pm_simd slower_of(const pm_simd u[3], double per)
 {
-	const pm_simd gamma2 = pm_simd_fma(pm_magnetic_square(u), pm_simd_all(per), pm_simd_all(1));
-	return 1 / pm_simd_sqrt(gamma2) + (gamma2 - gamma2);
+	const pm_simd gamma2 = pm_simd_fma(pm_magnetic_square(u), pm_simd_all(per), pm_simd_all(1)), light = pm_simd_all(0x1p50);
+	const pm_simd slower = pm_simd_rsqrt_near(gamma2);
+	return pm_simd_any_below(light, gamma2) ? pm_simd_where_below(light, gamma2, 1 / pm_simd_sqrt(gamma2) + (gamma2 - gamma2), slower) : slower;
 }
 
 /* In loops that are short enough for the next particles to begin while those under way wait for their roots and quotients. */
@@ -51,20 +53,21 @@ PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const
 {
 	const double per = 1 / (light * light), one = opens || closes ? 0.5 * dt * p->charge[0] / p->mass[0] : 0;
 	_Alignas(64) double less[lanes_of], turn[lanes_of], u[3][lanes_of], tau[3][lanes_of];
+	double *const to_u[3] = {u[0], u[1], u[2]}, *const to_tau[3] = {tau[0], tau[1], tau[2]};
 	const double *const us[3] = {u[0], u[1], u[2]}, *const taus[3] = {tau[0], tau[1], tau[2]};
 	pm_simd w[3], t[3];
 	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
 		take(p->v, l, w);
 		const pm_simd less2 = pm_simd_fnma(pm_magnetic_square(w), pm_simd_all(per), pm_simd_all(1)), gamma = pm_simd_rsqrt(less2);
 		scale(gamma, w);
-		put(w, u, l);
+		put(w, to_u, l);
 		pm_simd_store_any(less + l, less2 * gamma);
 	}
 	for (size_t l = 0; l < lanes_of && closes; l += PM_SIMD_WIDTH) {
 		take(us, l, w);
 		add_acceleration(dt, p, l, w);
 		pm_simd_store_any(less + l, slower_of(w, per));
-		put(w, u, l);
+		put(w, to_u, l);
 	}
 	for (size_t l = 0; l < lanes_of && (opens || closes); l += PM_SIMD_WIDTH) {
 		const pm_simd rate = p->alike ? pm_simd_all(one) : 0.5 * dt * pm_simd_load_any(p->charge + l) / pm_simd_load_any(p->mass + l);
@@ -72,7 +75,7 @@ PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const
 		scale(rate * pm_simd_load_any(less + l), t);
 		const pm_simd length2 = 1 + pm_magnetic_square(t), slower = pm_simd_rsqrt(length2);
 		scale(1 / pm_simd_fma(length2, slower, pm_simd_all(1)), t);
-		put(t, tau, l);
+		put(t, to_tau, l);
 		pm_simd_store_any(turn + l, 1 + slower);
 	}
 	for (size_t l = 0; l < lanes_of; l += PM_SIMD_WIDTH) {
@@ -85,12 +88,12 @@ PM_SIMD_INLINE void kick(bool opens, bool closes, double dt, double light, const
 			scale(pm_simd_load_any(less + l), w);
 		else
 			add_acceleration(dt, p, l, w);
-		put(w, closes ? p->changed : u, l);
+		put(w, closes ? p->to : to_u, l);
 	}
 	for (size_t l = 0; l < lanes_of && !closes; l += PM_SIMD_WIDTH) {
 		take(us, l, w);
 		scale(slower_of(w, per), w);
-		put(w, p->changed, l);
+		put(w, p->to, l);
 	}
 }
 

@@ -30,22 +30,36 @@ void pm_staggered_fill_cells(const double *blocks, const size_t slots[3], double
 /* Linear in an axis, of which u is the part of a cell: begins with 0, because a sum of nothing but -0 is 0. */
 PM_SIMD_INLINE four linear(four a, four b, four below, four u) { return 0 + a * below + b * u; }
 
-void pm_staggered_gather_cells(const struct pm_staggered_tile *t)
+/* Where the numbers of the particles' cells begin. */
+static void find_cells(const struct pm_staggered_tile *t, int32_t *at)
 {
 	const int *shift = pm_tile_shift[3];
-	double *const results = t->results;
 	for (size_t i = 0; i < t->count; i += fours) {
-		four part[3], below[3], n[numbers];
-		four_int at = {0};
+		four_int sum = {0};
 		for (int d = 0; d < 3; d++) {
 			pm_simd4_int_at cell;
-			part[d] = (four)pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell); /* u >= 0 */
+			pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell); /* u >= 0 */
+			sum += (cell - (int32_t)t->cell[d]) * (numbers << (d > 0 ? shift[0] : 0) << (d > 1 ? shift[1] : 0));
+		}
+		*(pm_simd4_int_at *)(at + i) = sum;
+	}
+}
+
+void pm_staggered_gather_cells(const struct pm_staggered_tile *t)
+{
+	double *const results = t->results;
+	int32_t at[PM_TILE_ORDER_PACK];
+	find_cells(t, at); /* not in the next loop: four particles would wait for their addresses, at two thirds of the speed */
+	for (size_t i = 0; i < t->count; i += fours) {
+		four part[3], below[3], n[numbers];
+		for (int d = 0; d < 3; d++) {
+			pm_simd4_int_at cell;
+			part[d] = (four)pm_simd4_split(*(const pm_simd4_at *)(t->u[d] + i), &cell);
 			below[d] = 1 - part[d];
-			at += (cell - (int32_t)t->cell[d]) * (numbers << (d > 0 ? shift[0] : 0) << (d > 1 ? shift[1] : 0));
 		}
 		const size_t last = t->count - i - 1;
 		for (int l = 0; l < fours; l++) { /* the last one again where there are fewer */
-			const double *row = t->nodes + at[(size_t)l < last ? (size_t)l : last];
+			const double *row = t->nodes + at[i + ((size_t)l < last ? (size_t)l : last)];
 			for (int k = 0; k < numbers; k += fours)
 				n[k + l] = *(const pm_simd4_at *)(row + k);
 		}

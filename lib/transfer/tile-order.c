@@ -13,9 +13,18 @@ static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk 
 
 void pm_tile_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict length)
 {
-	for (size_t i = 0; i < m; i++) {
-		const double a = x[i], b = a + dt * v[i];
-		length[i] = (b - a) / h;
+	const pm_simd steps = pm_simd_all(dt), cells = pm_simd_all(h), inverse = pm_simd_all(1 / h);
+	size_t i = 0;
+	for (; i + PM_SIMD_WIDTH <= m; i += PM_SIMD_WIDTH) {
+		const pm_simd a = pm_simd_load_any(x + i), b = a + steps * pm_simd_load_any(v + i);
+		pm_simd_store_any(length + i, pm_simd_divide(b - a, cells, inverse));
+	}
+	if (i < m) { /* as the others to the last bit, wherever a piece of the stream ends */
+		pm_simd a = pm_simd_all(0), b = a;
+		memcpy(&a, x + i, (m - i) * sizeof *x), memcpy(&b, v + i, (m - i) * sizeof *v);
+		b = a + steps * b;
+		a = pm_simd_divide(b - a, cells, inverse);
+		memcpy(length + i, &a, (m - i) * sizeof *length);
 	}
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "base/simd.h"
 #include "check.h"
 
 static void sums(void)
@@ -152,9 +153,29 @@ static void traps(void)
 	check(denormal != other && other - denormal != 0, "denormal numbers are not flushed to zero: x != y means x - y != 0");
 }
 
+/* Of 200000 numbers between 2^-60 and 2^60, the largest errors in units of the last digit. */
+static void inverse_roots(void)
+{
+	double most[2] = {0};
+	for (int i = 0; i < 200000; i++) {
+		const double x = ldexp(1 + fmod(0.6180339887498949 * i, 1), i % 121 - 60);
+		const long double exact = 1 / sqrtl(x);
+		const double unit = ldexp(1, ilogbl(exact) - 52), got[2] = {pm_simd_rsqrt(pm_simd_all(x))[0], pm_simd_rsqrt_near(pm_simd_all(x))[0]};
+		for (int k = 0; k < 2; k++)
+			most[k] = fmax(most[k], fabs((double)((got[k] - exact) / unit)));
+	}
+#ifdef __AVX512F__
+	const double near = 0.51;
+#else
+	const double near = 1.5; /* a root and a quotient round twice */
+#endif
+	check(most[0] < 1.5 && most[1] < near, "inverse roots: off by %.3f of the last digit, and the near one by %.3f", most[0], most[1]);
+}
+
 int main(void)
 {
 	sums();
+	inverse_roots();
 	memory();
 	checksums();
 	numbers();
