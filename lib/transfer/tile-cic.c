@@ -243,18 +243,18 @@ PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_si
 	}
 }
 
+PM_SIMD_INLINE pm_simd_int place_of(const struct eight *e) { return PM_TILE_CIC_CORNERS ? cell_of(e) : node_of(e); }
+
 /* Weights of four rows, [y*2 + z]; x of the two halves of each. */
 struct rows {
 	pm_simd w[4], x, x0;
-	int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
+	const int32_t *at;
 };
 
-PM_SIMD_INLINE struct rows rows_of(const struct eight *e)
+PM_SIMD_INLINE struct rows rows_of(const struct places *p, size_t i)
 {
-	const pm_simd x = e->distance[0], y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
-	struct rows r = {.w = {z0 * y0, z * y0, z0 * y, z * y}, .x = x, .x0 = 1 - x};
-	*(pm_simd_int_at *)r.at = PM_TILE_CIC_CORNERS ? cell_of(e) : node_of(e);
-	return r;
+	const pm_simd x = pm_simd_load(p->distance[0] + i), y = pm_simd_load(p->distance[1] + i), z = pm_simd_load(p->distance[2] + i), y0 = 1 - y, z0 = 1 - z;
+	return (struct rows){.w = {z0 * y0, z * y0, z0 * y, z * y}, .x = x, .x0 = 1 - x, .at = p->at + i};
 }
 
 /* The two points of each of four rows of the block. */
@@ -299,19 +299,22 @@ PM_SIMD_INLINE const double *component(const struct pm_tile *t, int c)
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
 	struct delivery to[PM_COMPONENTS];
+	struct places places;
 	pm_simd nothing = {0};
 	for (int c = 0; c < t->components; c++)
 		to[c] = delivery_of(r, c);
-	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
-		const struct eight e = find_eight(t, batch, i);
-		const struct rows rows = rows_of(&e);
-		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
-		if (t->components == 1) { /* not in the loop, before which gcc works out the addresses of eight particles and keeps them in memory */
-			deliver_eight(value_of(&rows, component(t, 0)), n, &to[0], p, &nothing);
-			continue;
+	for (size_t from = 0, end; from < batch->m; from = end) {
+		end = find_places(3, t, batch, from, place_of, &places);
+		for (size_t i = from; i < end; i += PM_SIMD_WIDTH) {
+			const struct rows rows = rows_of(&places, i - from);
+			const size_t n = end - i < PM_SIMD_WIDTH ? end - i : PM_SIMD_WIDTH, p = batch->p + i;
+			if (t->components == 1) { /* not in the loop, before which gcc works out the addresses of eight particles and keeps them in memory */
+				deliver_eight(value_of(&rows, component(t, 0)), n, &to[0], p, &nothing);
+				continue;
+			}
+			for (int c = 0; c < t->components; c++)
+				deliver_eight(value_of(&rows, component(t, c)), n, &to[c], p, &nothing);
 		}
-		for (int c = 0; c < t->components; c++)
-			deliver_eight(value_of(&rows, component(t, c)), n, &to[c], p, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }
@@ -322,7 +325,9 @@ void pm_tile_cic_gather_eight(const struct pm_tile *t)
 	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
 		pm_simd fourth;
 		const struct eight e = find_eight_of_records(t, i, &fourth);
-		const struct rows rows = rows_of(&e);
+		struct places places;
+		put_eight(3, &e, place_of, 0, &places);
+		const struct rows rows = rows_of(&places, 0);
 		const size_t n = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
 		if (t->components == 1) {
 			const pm_simd v = value_of(&rows, component(t, 0));

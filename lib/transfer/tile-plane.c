@@ -9,7 +9,7 @@ enum { row = 64 + 12 };
 bool pm_tile_has_plane(int dim, const struct pm_kernel *k) { return PM_TILE_CIC_EIGHT && dim == 2 && k->width == 2 && k->degree == 1; }
 
 /* Their first points in the block. */
-PM_SIMD_INLINE void points_of(const struct eight *e, int32_t *at) { *(pm_simd_int_at *)at = e->cell[1] * row + e->cell[0]; }
+PM_SIMD_INLINE pm_simd_int point_of(const struct eight *e) { return e->cell[1] * row + e->cell[0]; }
 
 /* The first n of a vector of particles. */
 PM_SIMD_INLINE void add_rows(size_t n, const struct eight *e, pm_simd q, double *block)
@@ -17,7 +17,7 @@ PM_SIMD_INLINE void add_rows(size_t n, const struct eight *e, pm_simd q, double 
 	const pm_simd x = e->distance[0], y = e->distance[1], low = (1 - y) * q, high = y * q;
 	int32_t at[PM_SIMD_WIDTH];
 	pm_simd2_at below[PM_SIMD_WIDTH], above[PM_SIMD_WIDTH];
-	points_of(e, at);
+	*(pm_simd_int_at *)at = point_of(e);
 	pm_simd_to_pairs((1 - x) * low, x * low, below);
 	pm_simd_to_pairs((1 - x) * high, x * high, above);
 	PM_SIMD_UNROLL
@@ -64,12 +64,12 @@ void pm_tile_plane_spread_records(const struct pm_tile *t)
 	}
 }
 
-PM_SIMD_INLINE pm_simd value_of(const struct eight *e, const int32_t *at, const double *block)
+PM_SIMD_INLINE pm_simd value_of(const struct places *p, size_t i, const double *block)
 {
-	const pm_simd x = e->distance[0], y = e->distance[1];
+	const pm_simd x = pm_simd_load(p->distance[0] + i), y = pm_simd_load(p->distance[1] + i);
 	pm_simd a, b, c, d;
-	load_pairs(block, at, &a, &b);
-	load_pairs(block + row, at, &c, &d);
+	load_pairs(block, p->at + i, &a, &b);
+	load_pairs(block + row, p->at + i, &c, &d);
 	const pm_simd below = a * (1 - y) + c * y, above = b * (1 - y) + d * y;
 	return (0 + below * (1 - x)) + above * x; /* 0 +: as the loop begins, so that no sum is -0 */
 }
@@ -77,20 +77,21 @@ PM_SIMD_INLINE pm_simd value_of(const struct eight *e, const int32_t *at, const 
 bool pm_tile_plane_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r)
 {
 	struct delivery to[PM_COMPONENTS];
+	struct places places;
 	pm_simd nothing = {0};
 	for (int c = 0; c < t->components; c++)
 		to[c] = delivery_of(r, c);
-	for (size_t i = 0; i < b->m; i += PM_SIMD_WIDTH) {
-		const size_t n = b->m - i < PM_SIMD_WIDTH ? b->m - i : PM_SIMD_WIDTH;
-		const struct eight e = find_eight_of(2, t, b, i);
-		int32_t at[PM_SIMD_WIDTH];
-		points_of(&e, at);
-		if (t->components == 1) { /* not in the loop: see tile-cic.c */
-			deliver_eight(value_of(&e, at, t->block), n, &to[0], b->p + i, &nothing);
-			continue;
+	for (size_t from = 0, end; from < b->m; from = end) {
+		end = find_places(2, t, b, from, point_of, &places);
+		for (size_t i = from; i < end; i += PM_SIMD_WIDTH) {
+			const size_t n = end - i < PM_SIMD_WIDTH ? end - i : PM_SIMD_WIDTH;
+			if (t->components == 1) { /* not in the loop: see tile-cic.c */
+				deliver_eight(value_of(&places, i - from, t->block), n, &to[0], b->p + i, &nothing);
+				continue;
+			}
+			for (int c = 0; c < t->components; c++)
+				deliver_eight(value_of(&places, i - from, t->block + (size_t)c * PM_BLOCK_MOST), n, &to[c], b->p + i, &nothing);
 		}
-		for (int c = 0; c < t->components; c++)
-			deliver_eight(value_of(&e, at, t->block + (size_t)c * PM_BLOCK_MOST), n, &to[c], b->p + i, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }
@@ -102,10 +103,10 @@ void pm_tile_plane_gather_records(const struct pm_tile *t)
 		const size_t n = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
 		pm_simd third, fourth;
 		const struct eight e = find_eight_in_plane(t, i, &third, &fourth);
-		int32_t at[PM_SIMD_WIDTH];
-		points_of(&e, at);
+		struct places places;
+		put_eight(2, &e, point_of, 0, &places);
 		for (int c = 0; c < t->components; c++) {
-			const pm_simd v = value_of(&e, at, t->block + (size_t)c * PM_BLOCK_MOST);
+			const pm_simd v = value_of(&places, 0, t->block + (size_t)c * PM_BLOCK_MOST);
 			double *result = t->results + i * to + (size_t)c;
 			for (size_t l = 0; l < n; l++)
 				result[l * to] = v[l];

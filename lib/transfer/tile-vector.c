@@ -70,18 +70,18 @@ PM_SIMD_INLINE pm_simd4_at value_by_four(const double *from, const double w[4], 
 	return low * (1 - x) + high * x;
 }
 
-PM_SIMD_INLINE void values_of(const struct pm_tile *t, const struct eight *e, pm_simd4_at value[PM_SIMD_WIDTH])
+PM_SIMD_INLINE pm_simd_int place_of(const struct eight *e) { return e->cell[2] * node_plane + e->cell[1] * node_row + e->cell[0] * 4; }
+
+PM_SIMD_INLINE void values_of(const struct pm_tile *t, const struct places *p, size_t i, pm_simd4_at value[PM_SIMD_WIDTH])
 {
-	const pm_simd y = e->distance[1], z = e->distance[2], y0 = 1 - y, z0 = 1 - z;
-	double w[4][PM_SIMD_WIDTH] __attribute__((aligned(64))), x[PM_SIMD_WIDTH] __attribute__((aligned(64))); /* w[y*2 + z] */
-	int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
-	*(pm_simd_int_at *)at = e->cell[2] * node_plane + e->cell[1] * node_row + e->cell[0] * 4;
-	pm_simd_store(w[0], z0 * y0), pm_simd_store(w[1], z * y0), pm_simd_store(w[2], z0 * y), pm_simd_store(w[3], z * y), pm_simd_store(x, e->distance[0]);
+	const pm_simd y = pm_simd_load(p->distance[1] + i), z = pm_simd_load(p->distance[2] + i), y0 = 1 - y, z0 = 1 - z;
+	double w[4][PM_SIMD_WIDTH] __attribute__((aligned(64))); /* w[y*2 + z] */
+	pm_simd_store(w[0], z0 * y0), pm_simd_store(w[1], z * y0), pm_simd_store(w[2], z0 * y), pm_simd_store(w[3], z * y);
 	PM_SIMD_UNROLL
 	for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
-		const double *from = t->nodes + (size_t)(uint32_t)at[l];
+		const double *from = t->nodes + (size_t)(uint32_t)p->at[i + l], x = p->distance[0][i + l];
 		const double f[4] = {w[0][l], w[1][l], w[2][l], w[3][l]};
-		value[l] = (int)PM_SIMD_PART == 8 ? value_by_eight(from, f, x[l]) : value_by_four(from, f, x[l]);
+		value[l] = (int)PM_SIMD_PART == 8 ? value_by_eight(from, f, x) : value_by_four(from, f, x);
 	}
 }
 
@@ -90,37 +90,47 @@ void pm_tile_cic_gather_vectors(const struct pm_tile *t)
 	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
 		pm_simd fourth;
 		pm_simd4_at value[PM_SIMD_WIDTH];
+		struct places places;
 		const struct eight e = find_eight_of_records(t, i, &fourth);
-		values_of(t, &e, value);
+		put_eight(3, &e, place_of, 0, &places);
+		values_of(t, &places, 0, value);
 		for (size_t l = 0; l < PM_SIMD_WIDTH && i + l < t->count; l++)
 			put(t, i + l, value[l]);
 	}
 }
 
+/* Of three components with one factor the squares, for the largest. */
+PM_SIMD_INLINE void look_at(const pm_simd component[4], const struct delivery to[4], pm_simd *most)
+{
+	pm_simd square = {0};
+	PM_SIMD_UNROLL
+	for (int c = 0; c < 3; c++)
+		square = square + to[c].times * component[c] * (to[c].times * component[c]);
+	pm_simd_raise(most, square);
+}
+
 bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
 	struct delivery to[4];
+	struct places places;
 	pm_simd nothing = {0}, most = {0};
 	for (int c = 0; c < t->components; c++)
 		to[c] = delivery_of(r, c);
-	for (size_t i = 0; i < batch->m; i += PM_SIMD_WIDTH) {
-		const size_t n = batch->m - i < PM_SIMD_WIDTH ? batch->m - i : PM_SIMD_WIDTH, p = batch->p + i;
-		const struct eight e = find_eight(t, batch, i);
-		pm_simd4_at value[PM_SIMD_WIDTH];
-		pm_simd component[4];
-		values_of(t, &e, value);
-		pm_simd_rows_to_lanes(value, component);
-		if (r->most) { /* of three, with one factor */
-			pm_simd square = {0};
+	for (size_t from = 0, end; from < batch->m; from = end) {
+		end = find_places(3, t, batch, from, place_of, &places);
+		for (size_t i = from; i < end; i += PM_SIMD_WIDTH) {
+			const size_t n = end - i < PM_SIMD_WIDTH ? end - i : PM_SIMD_WIDTH;
+			pm_simd4_at value[PM_SIMD_WIDTH];
+			pm_simd component[4];
+			values_of(t, &places, i - from, value);
+			pm_simd_rows_to_lanes(value, component);
+			if (r->most)
+				look_at(component, to, &most);
 			PM_SIMD_UNROLL
-			for (int c = 0; c < 3; c++)
-				square = square + to[c].times * component[c] * (to[c].times * component[c]);
-			pm_simd_raise(&most, square);
+			for (int c = 0; c < 4; c++)
+				if (c < t->components)
+					deliver_eight(component[c], n, &to[c], batch->p + i, &nothing);
 		}
-		PM_SIMD_UNROLL
-		for (int c = 0; c < 4; c++)
-			if (c < t->components)
-				deliver_eight(component[c], n, &to[c], p, &nothing);
 	}
 	for (int l = 0; l < PM_SIMD_WIDTH && r->most; l++)
 		*r->most = most[l] > *r->most ? most[l] : *r->most;
