@@ -396,6 +396,19 @@ PM_SIMD_INLINE pm_simd4_at pm_simd4_split(pm_simd4_at v, pm_simd4_int_at *whole)
 #endif
 }
 
+/* Which of four masks, 0 or -1, are set, as bits. */
+PM_SIMD_INLINE unsigned pm_simd4_bits(pm_simd4_at mask)
+{
+#ifdef __AVX__
+	return (unsigned)_mm256_movemask_pd((__m256d)mask);
+#else
+	unsigned bits = 0;
+	for (int l = 0; l < 4; l++)
+		bits |= (unsigned)signbit(mask[l]) << l;
+	return bits;
+#endif
+}
+
 /* Lanes of b where a bit of the constant is set, else of a. Not a shuffle: of a number in all lanes gcc would make three instructions of it. */
 #ifdef __AVX__
 #define pm_simd4_blend(a, b, bits) ((pm_simd4_at)_mm256_blend_pd((__m256d)(a), (__m256d)(b), bits))

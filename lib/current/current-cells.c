@@ -52,9 +52,10 @@ PM_SIMD_INLINE four_int find_along(int width, bool leaves, const struct pm_curre
 	pm_simd4_int_at cell;
 	four from[width_most], to[width_most], sum = {0};
 	const four begins = pm_simd4_split(u, &cell), ends = begins + way; /* u >= 0 */
+	const double shift = width % 2 ? 0.5 : 0; /* of transfer-axis.h: a constant */
 	const pm_mask_by_axis below = ends < 0;
-	find_by_axis(t->kernel, width, width - 1, begins - t->shift, from);
-	find_by_axis(t->kernel, width, width - 1, leaves ? ends - t->shift + where(below, all_axes(1), all_axes(-1)) : ends - t->shift, to);
+	find_by_axis(t->kernel, width, width - 1, begins - shift, from);
+	find_by_axis(t->kernel, width, width - 1, leaves ? ends - shift + where(below, all_axes(1), all_axes(-1)) : ends - shift, to);
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width + leaves; k++) {
 		const four first = k < width ? from[k] : all_axes(0), last = k < width ? to[k] : all_axes(0);
@@ -95,7 +96,7 @@ PM_SIMD_INLINE int find_values(int dim, int width, int c, four q, const struct a
 }
 
 /* Four rows of four numbers of particles to the sums of their cells; in one cell they are added up first, because sums at one place wait for each other. */
-PM_SIMD_INLINE void to_sums(double *const sums[fours], bool one, int k, four *value)
+PM_SIMD_INLINE void to_sums(double *const sums[fours], bool one, size_t k, four *value)
 {
 	turn_rows(value);
 	if (one)
@@ -131,28 +132,42 @@ PM_SIMD_INLINE int bits_below(int dim, int d) { return (d > 0 ? pm_tile_shift[di
 /* The numbers of four ways to the sums of these cells; q: the charge, and from dim on what it carries. */
 PM_SIMD_INLINE void to_cells(int dim, int width, struct pm_current_cells *t, four_int at, const four q[3], const struct along *axes)
 {
-	const int each = (pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
+	const size_t each = (size_t)(pm_current_cell_numbers(dim, width) + fours - 1) / fours * fours;
 	four value[values_most];
 	double *sums[fours];
 	PM_SIMD_UNROLL
 	for (int l = 0; l < fours; l++) {
-		t->used[at[l] / piece] = 1;
-		sums[l] = t->sums + at[l] * each;
+		const size_t cell = (uint32_t)at[l]; /* unsigned: half the instructions */
+		t->used[cell / piece] = 1;
+		sums[l] = t->sums + cell * each;
 	}
 	int n = find_values(dim, width, 0, q[0], axes, value); /* one by one: constants when their loops are unrolled */
 	n += find_values(dim, width, 1, q[1], axes, value + n);
 	n += find_values(dim, width, 2, q[2], axes, value + n);
-	for (int k = n; k < each; k++)
+	for (size_t k = (size_t)n; k < each; k++)
 		value[k] = all_axes(0);
 	if (sums[0] == sums[1] && sums[0] == sums[2] && sums[0] == sums[3])
-		for (int k = 0; k < each; k += fours)
+		for (size_t k = 0; k < each; k += fours)
 			to_sums(sums, true, k, value + k);
 	else
-		for (int k = 0; k < each; k += fours)
+		for (size_t k = 0; k < each; k += fours)
 			to_sums(sums, false, k, value + k);
 }
 
 PM_SIMD_INLINE four masked(const double *from, pm_mask_by_axis on) { return (four)((pm_mask_by_axis) * (const pm_simd4_at *)from & on); }
+
+/* Of four from i on those whose bits are set, to the others; how many these are then. Without a branch, which could not be foreseen. */
+PM_SIMD_INLINE size_t keep_others(uint32_t i, unsigned bits, uint32_t *others, size_t left)
+{
+	static const struct {
+		unsigned char lane[fours], many;
+	} of[1 << fours] = {{{0}, 0}, {{0}, 1}, {{1}, 1}, {{0, 1}, 2}, {{2}, 1}, {{0, 2}, 2}, {{1, 2}, 2}, {{0, 1, 2}, 3}, {{3}, 1}, {{0, 3}, 2}, {{1, 3}, 2},
+		{{0, 1, 3}, 3}, {{2, 3}, 2}, {{0, 2, 3}, 3}, {{1, 2, 3}, 3}, {{0, 1, 2, 3}, 4}};
+	PM_SIMD_UNROLL
+	for (int l = 0; l < fours; l++)
+		others[left + (size_t)l] = i + of[bits].lane[l];
+	return left + of[bits].many;
+}
 
 PM_SIMD_INLINE size_t add_within(int dim, int width, struct pm_current_cells *t, uint32_t *others)
 {
@@ -168,11 +183,7 @@ PM_SIMD_INLINE size_t add_within(int dim, int width, struct pm_current_cells *t,
 			const four u = *(const pm_simd4_at *)(t->u[d] + i), way = *(const pm_simd4_at *)(t->way[d] + i);
 			at += find_along(width, false, t, d, u, way, &axes[d], &same) << bits_below(dim, d);
 		}
-		PM_SIMD_UNROLL
-		for (int l = 0; l < fours; l++) {
-			others[left] = (uint32_t)i + (uint32_t)l;
-			left += (size_t)(same[l] + 1);
-		}
+		left = keep_others((uint32_t)i, ~pm_simd4_bits((four)same) & 15, others, left);
 		for (int c = 0; c < 3; c++)
 			q[c] = masked((c < dim ? t->q : t->along[c - dim]) + i, same);
 		to_cells(dim, width, t, at, q, axes);

@@ -26,7 +26,6 @@ enum { PM_CURRENT_CELL_WAYS = PM_TILE_ORDER_PACK + 8 }; /* and one of no charge,
 struct pm_current_cells {
 	int dim;
 	const struct pm_kernel *kernel;
-	double shift;
 	size_t cell[3];          /* the first of the tile */
 	size_t count;            /* <= PM_TILE_ORDER_PACK */
 	double u[3][PM_CURRENT_CELL_WAYS], way[3][PM_CURRENT_CELL_WAYS], q[PM_CURRENT_CELL_WAYS], along[2][PM_CURRENT_CELL_WAYS];

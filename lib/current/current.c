@@ -66,7 +66,6 @@ static void fill_cells(const struct pm_current_fill *s, const struct pm_tile_ord
 	for (int d = o->dim; d < 3; d++)
 		columns[numbers++] = cells->along[d - o->dim];
 	few.stride = numbers, few.records = records;
-	cells->shift = t->shift;
 	memcpy(cells->cell, t->cell, sizeof cells->cell);
 	for (size_t at = j->from; at < j->to; at += cells->count) {
 		cells->count = j->to - at < PM_TILE_ORDER_PACK ? j->to - at : PM_TILE_ORDER_PACK;
