@@ -123,9 +123,10 @@ PM_SIMD_INLINE void put_eight(int dim, const struct eight *e, number_of *number,
 /* Those from `from` on, as many as there is room for; where the next piece begins. */
 PM_SIMD_INLINE size_t find_places(int dim, const struct pm_tile *t, const struct pm_tile_batch *b, size_t from, number_of *number, struct places *to)
 {
+	const struct pm_tile_batch mine = *b; /* its numbers stay in registers: what is stored here might be those of the caller */
 	const size_t end = b->m - from < PM_TILE_ORDER_PACK ? b->m : from + PM_TILE_ORDER_PACK;
 	for (size_t i = from; i < end; i += PM_SIMD_WIDTH) {
-		const struct eight e = find_eight_of(dim, t, b, i);
+		const struct eight e = find_eight_of(dim, t, &mine, i);
 		put_eight(dim, &e, number, i - from, to);
 	}
 	return end;

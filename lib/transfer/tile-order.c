@@ -70,13 +70,18 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
 PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3], size_t m, uint32_t *tile)
 {
 	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
+	struct pm_axis_lanes mine[3]; /* what is stored here might be those of the caller, and they would be loaded again and again */
 	unsigned any = 0;
+	PM_SIMD_UNROLL
+	for (int d = 0; d < dim; d++)
+		mine[d] = lanes[d];
 	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 		pm_simd_int at = {0}, cell;
+		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
 			unsigned outside;
 			const pm_simd a = pm_simd_load_any(x[d] + i);
-			pm_simd_split(pm_axis_locate_eight(&lanes[d], a, &outside), &cell);
+			pm_simd_split(pm_axis_locate_eight(&mine[d], a, &outside), &cell);
 			__builtin_prefetch(x[d] + i + PM_TILE_AHEAD);
 			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
