@@ -62,7 +62,7 @@ static double *result_row(const struct rows *r, size_t j, size_t k)
 /* Threads worth waking for the three passes of a solve. */
 static int threads_for(const struct pm_poisson_fft *p)
 {
-	enum { few = 40000 };
+	enum { few = 100000 };
 	return p->modes[Y] * p->slab < few ? 1 : pm_threads();
 }
 

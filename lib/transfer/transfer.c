@@ -370,6 +370,13 @@ static void doubles_of(int n, const struct pm_column from[], const double *to[])
 		to[c] = from[c].doubles;
 }
 
+/* Threads worth waking: each has what takes 0.2 ms. */
+static int threads_for(const struct pm_transfer *t, size_t n)
+{
+	const size_t width = t->kernel->width > 2 ? (size_t)t->kernel->width : 2, most = n * width * width / (PM_MANY_TURNS / 2);
+	return most < 2 ? 1 : (size_t)pm_threads() < most ? pm_threads() : (int)most;
+}
+
 int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], const double *const strength[], double *const mesh[],
 	struct pm_strays *strays)
 {
@@ -384,7 +391,7 @@ int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 {
 	bool done[PM_COMPONENTS] = {false};
 	struct pm_pass w;
-	int status = 0, threads = pm_tile_threads(n);
+	int status = 0, threads = threads_for(t, n);
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided) {
 		const double *at[3], *values[PM_COMPONENTS];
@@ -437,7 +444,7 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	bool done[PM_COMPONENTS] = {false}, finite = true;
 	struct pm_pass w;
 	double most = 0;
-	int status = 0, threads = pm_tile_threads(n);
+	int status = 0, threads = threads_for(t, n);
 	*strays = (struct pm_strays){.count = 0};
 	if (t->planes && t->planes->divided)
 		return gather_ranks(t, n, x, mesh, factor, out, strays);
@@ -488,7 +495,7 @@ int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_colum
 	const struct pm_tile_taker *taker)
 {
 	bool done[PM_COMPONENTS] = {false};
-	const int threads = pm_tile_threads(n);
+	const int threads = threads_for(t, n);
 	struct pm_pass w;
 	const struct pm_target to[PM_COMPONENTS] = {{.doubles = NULL}};
 	const struct pm_column one[PM_COMPONENTS] = {{.value = 1}, {.value = 1}, {.value = 1}};

@@ -528,6 +528,17 @@ tables() {
 	done
 }
 
+# Threads that stay awake, so that any of them may have the job.
+@test "equal bytes of two threads where all particles are one job" {
+	local step="push kick/2 drift | p2m --kernel pcs | poisson-fft | mgrad | m2p --kernel pcs | push kick/2 | diag --tee table"
+	pinit langmuir -n 16384 --cells 32 --dim 2 --axes 2 --amplitude 0.3 >begin
+	OMP_NUM_THREADS=1 cycle -q -n 60 -i begin "$step" >one
+	for i in 1 2 3 4 5 6; do
+		OMP_NUM_THREADS=2 OMP_WAIT_POLICY=active timeout -k 1 60 cycle -q -n 60 -i begin "$step" >two
+		cmp one two
+	done
+}
+
 @test "equal tables of diag with ranks: vortices on meshes, modes, species, pairs, separations, light" {
 	local flow="p2m | poisson-fft | mgrad | m2p" leap="push kick/2 drift | p2m | poisson-fft | mgrad | m2p | push kick/2"
 	pinit taylor-green-2d --cells 70 | tables "$flow | diag --tee table | push rk2"
