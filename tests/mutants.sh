@@ -7,7 +7,7 @@
 # the name of a test. SPDX-License-Identifier: GPL-3.0-or-later
 set -u
 cd "$(dirname "$0")/.." || exit 1
-export LC_ALL=C OMP_WAIT_POLICY=passive OMP_NUM_THREADS=2
+export LC_ALL=C OMP_WAIT_POLICY=passive OMP_NUM_THREADS=2 PM_MANY_TURNS=16384
 limit=600 # [s] per test: one that takes longer decides nothing
 
 # rows [NAME...]

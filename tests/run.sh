@@ -10,6 +10,7 @@ export B=${B:-build}
 reports=${REPORTS:-$B/check}
 [ "$B" = build ] && PM_BIN=$PWD/bin || PM_BIN=$PWD/$B/bin
 export PM_BIN reports
+export PM_MANY_TURNS=16384             # threads on small frames too
 export LC_ALL=C OMP_WAIT_POLICY=passive # waiting threads must not occupy the cores of the other stages of a pipe
 
 # suites [FILE...]: the test files, one per line. The long ones come first, so that no core is idle at the end: those that take half a minute, then the others

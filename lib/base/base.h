@@ -57,8 +57,9 @@ size_t pm_memory_idle(void);                 /* bytes of freed blocks kept: neve
 /* Threads: OMP_NUM_THREADS, PM_THREADS or --threads. Results never depend on the number. */
 int pm_threads(void);
 void pm_threads_use(int n);
-/* Turns of a loop of a nanosecond each, at least, from which threads pay: waking one takes 10 us, where it sleeps on another core 50. */
-enum { PM_MANY_TURNS = 1 << 17 };
+/* Turns of a loop of a nanosecond each, at least, from which threads pay: waking one takes 10 us, where it sleeps on another core 50. Tests, whose frames are
+ * small, have PM_MANY_TURNS=16384. */
+size_t pm_many_turns(void);
 
 /* Seconds of a monotonic clock; only the stage layer and bench/ may call it. */
 double pm_seconds(void);

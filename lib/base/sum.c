@@ -14,7 +14,7 @@ double pm_sum_products(size_t n, const double *x, const double *y)
 bool pm_finite(size_t n, const double *x)
 {
 	int bad = 0;
-#pragma omp parallel for schedule(static) reduction(| : bad) if (n > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(| : bad) if (n > pm_many_turns())
 	for (size_t b = 0; b < (n + pm_sum_block - 1) / pm_sum_block; b++) {
 		size_t from = b * pm_sum_block;
 		bad |= !pm_finite_few(n - from < pm_sum_block ? n - from : pm_sum_block, x + from);

@@ -13,6 +13,15 @@ void pm_threads_use(int n)
 		omp_set_num_threads(n);
 }
 
+size_t pm_many_turns(void)
+{
+	static size_t turns;
+	const char *said = turns ? NULL : getenv("PM_MANY_TURNS");
+	if (!turns)
+		turns = said && atoi(said) > 0 ? (size_t)atoi(said) : 1 << 17;
+	return turns;
+}
+
 static double seconds_of(clockid_t clock)
 {
 	struct timespec t;

@@ -46,7 +46,7 @@ double pm_most(const struct pm_field *y, const double *h)
 	struct pm_column column[PM_COMPONENTS];
 	for (int d = 0; d < m; d++)
 		column[d] = pm_column_of(y, d);
-#pragma omp parallel for schedule(static) reduction(max : most) if (y->count > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(max : most) if (y->count > pm_many_turns())
 	for (size_t b = 0; b < y->count; b += BLOCK) {
 		const size_t n = y->count - b < BLOCK ? y->count - b : BLOCK;
 		const double *v[PM_COMPONENTS];
@@ -140,7 +140,7 @@ static double strain(const struct pm_grid *g, const struct pm_planes *p, int com
 {
 	const size_t n = g->points[0], rows = p->here * p->size / n, first = p->first * p->size;
 	double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (rows * n > PM_MANY_TURNS / 4)
+#pragma omp parallel for schedule(static) reduction(max : most) if (rows * n > pm_many_turns() / 4)
 	for (size_t row = 0; row < rows; row++)
 		for (int c = 0; c < components; c++)
 			most = fmax(most, strain_of_row(g, p, row * n, first, u[c]));

@@ -83,7 +83,7 @@ double pm_gradient_later_most(const struct pm_gradient_later *l)
 	const int pairs = l->operator.order / 2;
 	const double *phi = pm_in(l->later.from, 0);
 	double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (n[0] * n[1] * n[2] > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(max : most) if (n[0] * n[1] * n[2] > pm_many_turns())
 	for (size_t row = 0; row < n[1] * n[2]; row++) {
 		const size_t y = row % n[1], z = row / n[1];
 		const double *const here = phi + row * n[0], *up[3][3], *down[3][3];

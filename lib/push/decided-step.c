@@ -84,7 +84,7 @@ void pm_decided_largest(const struct pm_field *state, size_t n, double *x)
 double pm_decided_max(size_t n, const double *y)
 {
 	double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (n > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > pm_many_turns())
 	for (size_t i = 0; i < n; i++)
 		most = fmax(most, fabs(y[i]));
 	return most;

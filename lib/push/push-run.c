@@ -183,7 +183,7 @@ static int turn(const struct pm_frame *f, const struct pm_moving *m, const struc
 				"the plane turns them out of it (give v 3 components)", m->set->name);
 	size_t fast = n;
 	int bad = floats; /* what is stored is checked later, rounded */
-#pragma omp parallel for schedule(static) reduction(min : fast) reduction(| : bad) if (n > PM_MANY_TURNS / 4)
+#pragma omp parallel for schedule(static) reduction(min : fast) reduction(| : bad) if (n > pm_many_turns() / 4)
 	for (size_t block = 0; block < blocks; block++) {
 		const size_t i = block * PM_ADVANCE_BLOCK, end = n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK;
 		if (floats) {

@@ -162,7 +162,7 @@ bool pm_advance_axis(size_t n, const struct pm_advance *a, int nlines, const str
 	int64_t most = 0;
 	for (int l = 0; l < nlines; l++)
 		floats |= lines[l].y_floats || lines[l].k_floats;
-#pragma omp parallel for schedule(static) reduction(| : bad) reduction(max : most) if (n * (size_t)nlines > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(| : bad) reduction(max : most) if (n * (size_t)nlines > pm_many_turns())
 	for (size_t block = 0; block < blocks; block++) {
 		const size_t i = block * PM_ADVANCE_BLOCK, end = n - i < PM_ADVANCE_BLOCK ? n : i + PM_ADVANCE_BLOCK;
 		bad |= floats ? block_of_floats(&s, i, end, &most) : block_of(&s, i, end - i, NULL, &most);

@@ -78,7 +78,7 @@ static double gyration(const struct pm_gather_job *j, const struct pm_frame *f, 
 	double most = 0;
 	for (int c = 0; c < 3; c++)
 		column[2 + c] = pm_column_of(b, c);
-#pragma omp parallel for schedule(static) reduction(max : most) if (n > PM_MANY_TURNS / 4)
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > pm_many_turns() / 4)
 	for (size_t from = 0; from < n; from += few) {
 		const size_t m = n - from < few ? n - from : few;
 		double room[5][few];

@@ -73,7 +73,7 @@ static double oscillation(const struct pm_later *later, const double *rate)
 	const struct pm_rate_left *l = (const struct pm_rate_left *)later;
 	const size_t n = later->from->count;
 	double most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) if (n > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > pm_many_turns())
 	for (size_t i = 0; i < n; i++) {
 		double square = 0;
 		for (int c = 0; c < l->t.components; c++)
@@ -101,7 +101,7 @@ static double largest(const struct pm_rate_left *l, size_t points)
 	look_at_mesh(l, &t, mesh);
 	if (t.gradient)
 		return sums * pm_gradient_later_most(t.gradient);
-#pragma omp parallel for schedule(static) reduction(max : most) if (points > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(max : most) if (points > pm_many_turns())
 	for (size_t i = 0; i < points; i++) {
 		double square = 0;
 		for (int c = 0; c < t.components; c++)

@@ -697,7 +697,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	int status = count_tiles(o, axes);
 	if (status)
 		return status;
-	while (o->chunks > 1 && ((size_t)o->chunks * 32768 > n || (size_t)o->chunks * o->tiles > 4 * n)) /* not worth the rows of the cursors */
+	while (o->chunks > 1 && ((size_t)o->chunks * (pm_many_turns() / 4) > n || (size_t)o->chunks * o->tiles > 4 * n)) /* not worth the rows of the cursors */
 		o->chunks--;
 	if ((status = allocate(o)))
 		return status;

@@ -139,7 +139,7 @@ void pm_ratio_range(const struct pm_frame *f, const char *set, const char *stren
 	const double *kept = pm_kept(top, bottom, name);
 	const size_t n = top->count;
 	double *keep, least = INFINITY, most = -INFINITY;
-#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most) if (!kept && n > PM_MANY_TURNS)
+#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most) if (!kept && n > pm_many_turns())
 	for (size_t p = 0; p < (kept ? 0 : n); p++) {
 		least = fmin(least, ratio[p]);
 		most = fmax(most, ratio[p]);

@@ -373,7 +373,7 @@ static void doubles_of(int n, const struct pm_column from[], const double *to[])
 /* Threads worth waking: each has what takes 0.2 ms. */
 static int threads_for(const struct pm_transfer *t, size_t n)
 {
-	const size_t width = t->kernel->width > 2 ? (size_t)t->kernel->width : 2, most = n * width * width / PM_MANY_TURNS;
+	const size_t width = t->kernel->width > 2 ? (size_t)t->kernel->width : 2, most = n * width * width / pm_many_turns();
 	return most < 2 ? 1 : (size_t)pm_threads() < most ? pm_threads() : (int)most;
 }
 
