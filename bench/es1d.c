@@ -1,7 +1,8 @@
 /* A step of an electrostatic plasma on a line, fused as in cycle, beside es1d of ZPIC (github.com/ricardo-fonseca/zpic), which sorts its particles every 16
  * steps and computes in single precision, on the same electrons, in turn: 16 steps a round. ZPIC is a shared library of its files but the one with main(),
  * found at run time (PM_ZPIC=FILE); nothing of it is needed to build. After that, for a cold wave, the positions of both against the exact ones. Reads one
- * frame: pinit langmuir -n N --cells C --dt DT | es1d [STEPS], N a multiple of C; STEPS of the comparison. SPDX-License-Identifier: GPL-3.0-or-later */
+ * frame: pinit langmuir -n N --cells C --dt DT | es1d [STEPS|NAME], N a multiple of C; STEPS of the comparison, or a name of the row.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <dlfcn.h>
 
 #include "sentence/sentence.h"
@@ -136,14 +137,18 @@ int main(int argc, char **argv)
 	const bool peer = zpic_open(&r.zpic);
 	if (!r.words || pm_sentence_prime(r.words, &r.frame))
 		return bad(pm_message());
-	if (argc > 1 && peer)
-		return compare(&r, atoi(argv[1])), 0;
+	const int steps = argc > 1 ? atoi(argv[1]) : 0;
+	if (steps) {
+		if (peer)
+			compare(&r, steps);
+		return 0;
+	}
 	if (peer)
 		zpic_fill(&r, NULL);
 	struct bench_job jobs[] = {{our_round, &r, {0}}, {their_round, &r, {0}}};
 	bench_turns(1 + peer, jobs);
 	char name[64];
-	snprintf(name, sizeof name, "step of cycle, 1-D %zu, %zu a cell", r.cells, r.n / r.cells);
+	snprintf(name, sizeof name, "step of cycle%s%s, 1-D %zu, %zu a cell", argc > 1 ? ", " : "", argc > 1 ? argv[1] : "", r.cells, r.n / r.cells);
 	bench_against((struct bench_row){.kernel = "es1d", .name = name, .unit = "M particles/s", .per = 1e6, .least = 3}, (double)r.n * STEPS, jobs,
 		"ZPIC es1d (f32, sorted)", peer ? jobs + 1 : NULL, 0);
 	return 0;

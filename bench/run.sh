@@ -109,8 +109,8 @@ part_step() {
 }
 # What users would run instead: ZPIC (PM_ZPIC), FINUFFT with FFTW (PM_FINUFFT).
 part_es1d() {
-	pinit langmuir -n 2097152 --cells 1024 --dim 1 --amplitude 0.5 | OMP_NUM_THREADS=1 keep "$b/es1d"
-	pinit landau -n 2097152 --cells 1024 | OMP_NUM_THREADS=1 keep "$b/es1d"
+	pinit langmuir -n 2097152 --cells 1024 --dim 1 --amplitude 0.5 | OMP_NUM_THREADS=1 keep "$b/es1d" cold
+	pinit landau -n 2097152 --cells 1024 | OMP_NUM_THREADS=1 keep "$b/es1d" warm
 	pinit langmuir -n 131072 --cells 1024 --dim 1 --dt 0.01 | OMP_NUM_THREADS=1 keep "$b/es1d" 628
 }
 part_vortex-step() {
