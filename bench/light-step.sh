@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# A step with light in 3-D: 2097152 thermal electrons, 64 in a cell of 32^3, cic, in double, sorted every 10 steps, one thread; with m2p --energy-conserving
-# and with m2p as bare. In turn with them VPIC, if PM_VPIC names a program (its whole path) that makes N steps of the same plasma when it is called with N (single precision,
-# sorted every 20 steps), and other builds of cycle: `light-step.sh [ROUNDS [CYCLE...]]`, 7 rounds, for what a change of the code does. TSV: user time of
-# the later steps less that of the first ones, in nanoseconds a particle and step, median and least, and the speed as a part of VPIC's. Needs 0.3 GB in
-# /dev/shm, 20 seconds a round. SPDX-License-Identifier: GPL-3.0-or-later
+# A step with light in 3-D: 2097152 thermal electrons, 64 in a cell of 32^3, cic, in double, sorted every 10 steps, one thread; with
+# m2p --energy-conserving and with m2p as bare. In turn with them VPIC, if PM_VPIC names a program (its whole path) that makes N steps of the same plasma
+# when it is called with N (single precision, sorted every 20 steps), and other builds of cycle: `light-step.sh [ROUNDS [CYCLE...]]`, 7 rounds, for what a
+# change of the code does. TSV: user time of the later steps less that of the first ones, in nanoseconds a particle and step, median and least, and the
+# speed as a part of VPIC's. Needs 0.3 GB in /dev/shm, 20 seconds a round. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export PATH=$PWD/bin:$PATH LC_ALL=C OMP_NUM_THREADS=1

@@ -62,20 +62,21 @@ PM_SIMD_INLINE void run_of(int pairs, bool woven, const struct lines *l, size_t 
 		one_node(pairs, woven, l, from + i, to + i * step);
 }
 
-/* Asks for rows from row `from` on of plane k: some nodes of each. */
-static void fetch(const size_t *n, const double *phi, size_t k, size_t from, size_t rows, size_t at, size_t nodes)
+/* So many nodes up and down a periodic axis of n nodes; a quotient would take longer than the differences of a row. */
+static inline size_t above(size_t i, size_t far, size_t n) { return i + far < n ? i + far : i + far - n; }
+static inline size_t below(size_t i, size_t far, size_t n) { return i >= far ? i - far : i + n - far; }
+
+/* Asks for some nodes of a row. */
+static inline void fetch(const double *row, size_t nodes)
 {
 	enum { line = 8 };
-	for (size_t q = 0; q < rows; q++) {
-		const double *row = phi + (k % n[2] * n[1] + (from + q) % n[1]) * n[0] + at;
-		for (size_t i = 0; i < nodes + line - 1; i += line)
-			__builtin_prefetch(row + i);
-	}
+	for (size_t i = 0; i < nodes + line - 1; i += line)
+		__builtin_prefetch(row + i);
 }
 
 PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *to)
 {
-	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1;
+	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1, reach = (size_t)pairs;
 	const size_t row = (size_t)pm_block_row[3] * step, plane = row * (size_t)pm_block_rows[3];
 	const double *phi = pm_in(g->later.from, 0);
 	const struct pm_axis *a = p->axes;
@@ -86,30 +87,32 @@ PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_lat
 		for (int k = 0; k < pairs; k++)
 			l.w[d][k] = g->weight[d][k];
 	}
+	const size_t begin = first[0], end = begin + slots[0], *x = a[0].at;
+	const size_t from = a[0].from < begin ? begin : a[0].from < end ? a[0].from : end, till = a[0].to < from ? from : a[0].to < end ? a[0].to : end;
 	for (size_t z = 0; z < slots[2]; z++)
 		for (size_t y = 0; y < slots[1]; y++) {
-			const size_t at[3] = {0, a[1].at[first[1] + y], a[2].at[first[2] + z]};
-			l.here = phi + (at[2] * n[1] + at[1]) * n[0];
+			const size_t ay = a[1].at[first[1] + y], az = a[2].at[first[2] + z];
+			const double *const in_plane = phi + az * n[1] * n[0], *const next = phi + above(az, 1, n[2]) * n[1] * n[0] + x[begin];
+			double *out = to + z * plane + y * row;
+			l.here = in_plane + ay * n[0];
 			PM_SIMD_UNROLL
 			for (int k = 0; k < pairs; k++) {
 				const size_t far = (size_t)k + 1;
 				l.up[0][k] = l.here + far, l.down[0][k] = l.here - far;
-				l.up[1][k] = phi + (at[2] * n[1] + (at[1] + far) % n[1]) * n[0];
-				l.down[1][k] = phi + (at[2] * n[1] + (at[1] + n[1] - far) % n[1]) * n[0];
-				l.up[2][k] = phi + ((at[2] + far) % n[2] * n[1] + at[1]) * n[0];
-				l.down[2][k] = phi + ((at[2] + n[2] - far) % n[2] * n[1] + at[1]) * n[0];
+				l.up[1][k] = in_plane + above(ay, far, n[1]) * n[0], l.down[1][k] = in_plane + below(ay, far, n[1]) * n[0];
+				l.up[2][k] = phi + (above(az, far, n[2]) * n[1] + ay) * n[0], l.down[2][k] = phi + (below(az, far, n[2]) * n[1] + ay) * n[0];
 			}
-			fetch(n, phi, at[2] + (size_t)pairs + 1, at[1], 1, a[0].at[first[0]], slots[0]);
-			if (y == 0) /* rows before and behind those of the tile, of its next plane */
-				fetch(n, phi, at[2] + 1, at[1] + n[1] - (size_t)pairs, (size_t)pairs, a[0].at[first[0]], slots[0]);
-			if (y + 1 == slots[1])
-				fetch(n, phi, at[2] + 1, at[1] + 1, (size_t)pairs, a[0].at[first[0]], slots[0]);
-			for (size_t x = 0, m; x < slots[0]; x += m) {
-				const size_t from = a[0].at[first[0] + x];
-				for (m = 1; x + m < slots[0] && a[0].at[first[0] + x + m] == from + m; m++)
-					;
-				run_of(pairs, woven, &l, from, m, to + z * plane + y * row + x * step);
-			}
+			fetch(phi + (above(az, reach + 1, n[2]) * n[1] + ay) * n[0] + x[begin], slots[0]);
+			for (size_t k = 1; k <= reach && y == 0; k++) /* rows before and behind those of the tile, of its next plane */
+				fetch(next + below(ay, k, n[1]) * n[0], slots[0]);
+			for (size_t k = 1; k <= reach && y + 1 == slots[1]; k++)
+				fetch(next + above(ay, k, n[1]) * n[0], slots[0]);
+			for (size_t s = begin; s < from; s++)
+				one_node(pairs, woven, &l, x[s], out + (s - begin) * step);
+			if (from < till)
+				run_of(pairs, woven, &l, x[from], till - from, out + (from - begin) * step);
+			for (size_t s = till; s < end; s++)
+				one_node(pairs, woven, &l, x[s], out + (s - begin) * step);
 		}
 }
 
