@@ -107,9 +107,9 @@ PM_SIMD_INLINE void add_some(size_t n, double weight, const double *x, const dou
 	const pm_simd w = pm_simd_all(weight);
 	size_t i = 0;
 	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH) {
-		__builtin_prefetch(x + i + AHEAD);
+		__builtin_prefetch(x + i + AHEAD, 0, 2);
 		if (products)
-			__builtin_prefetch(y + i + AHEAD);
+			__builtin_prefetch(y + i + AHEAD, 0, 2);
 		PM_SIMD_UNROLL
 		for (int q = 0; q < PARTS; q++) { /* in registers */
 			pm_simd_part a, b;

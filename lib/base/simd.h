@@ -54,11 +54,13 @@ typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_
 typedef int32_t pm_simd_int __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t))));
 typedef int32_t pm_simd_int_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t)), aligned(4), may_alias));
 
-/* Before a short loop over vectors, which must vanish if they are to stay in registers. */
+/* Before a short loop over vectors, which must vanish if they are to stay in registers: of at most 8 turns, of at most 16. */
 #ifdef __clang__
 #define PM_SIMD_UNROLL _Pragma("unroll")
+#define PM_SIMD_UNROLL_MORE _Pragma("unroll")
 #else
 #define PM_SIMD_UNROLL _Pragma("GCC unroll 8")
+#define PM_SIMD_UNROLL_MORE _Pragma("GCC unroll 16")
 #endif
 
 #define PM_SIMD_INLINE static inline __attribute__((always_inline, unused))
@@ -612,6 +614,8 @@ PM_SIMD_INLINE pm_simd pm_simd_reciprocal_start(pm_simd x)
 #ifdef PM_SANITIZED
 #undef PM_SIMD_UNROLL
 #define PM_SIMD_UNROLL
+#undef PM_SIMD_UNROLL_MORE
+#define PM_SIMD_UNROLL_MORE
 #undef PM_SIMD_INLINE
 #define PM_SIMD_INLINE static __attribute__((noinline, unused))
 #endif

@@ -9,6 +9,7 @@
 
 enum { MASS, KINETIC, MOMENTUM, SCALE = MOMENTUM + 3, ANGULAR, MOMENT = ANGULAR + 3, SQUARE = MOMENT + 3, SUMS };
 enum { lanes_all = 8, group = 8, lot = lanes_all * group, parts_of = lanes_all / PM_SIMD_PART };
+enum { AHEAD = 256 }; /* particles, fetched before they are read */
 
 struct block {
 	struct pm_sum sum[SUMS];
@@ -78,21 +79,34 @@ PM_SIMD_INLINE void terms_of(const int dim, const int vdim, const struct particl
 	}
 }
 
+/* Asks for eight particles further on, into the second-level cache: in the first, arrays of whole pages would put each other out. */
+PM_SIMD_INLINE void fetch(const int dim, const int vdim, const struct particles *b, size_t i)
+{
+	for (int d = 0; d < dim; d++)
+		__builtin_prefetch(b->x[d] + i + AHEAD, 0, 2);
+	for (int d = 0; d < vdim; d++)
+		__builtin_prefetch(b->v[d] + i + AHEAD, 0, 2);
+	if (b->mass)
+		__builtin_prefetch(b->mass + i + AHEAD, 0, 2);
+}
+
 /* A lot of particles from i on. */
 PM_SIMD_INLINE void add_lot(const int dim, const int vdim, const struct particles *b, size_t i, struct lanes *to)
 {
 	for (size_t part = 0; part < parts_of; part++) {
 		pm_simd_part pair[group / 2][SUMS], t[2][SUMS] = {{{0}}}, farthest2 = to->farthest2[part], *sum = to->sum[part], *carry = to->carry[part];
 		for (size_t q = 0; q < group / 2; q++) {
+			if (!part)
+				fetch(dim, vdim, b, i + 2 * q * lanes_all), fetch(dim, vdim, b, i + (2 * q + 1) * lanes_all);
 			PM_SIMD_UNROLL
 			for (size_t m = 0; m < 2; m++)
 				terms_of(dim, vdim, b, i + (2 * q + m) * lanes_all + part * PM_SIMD_PART, t[m], &farthest2);
-			PM_SIMD_UNROLL
+			PM_SIMD_UNROLL_MORE
 			for (int s = 0; s < SUMS; s++)
 				pair[q][s] = t[0][s] + t[1][s];
 		}
 		to->farthest2[part] = farthest2;
-		PM_SIMD_UNROLL
+		PM_SIMD_UNROLL_MORE
 		for (int s = 0; s < SUMS; s++) {
 			const pm_simd_part g = (pair[0][s] + pair[1][s]) + (pair[2][s] + pair[3][s]), all = sum[s] + g, z = all - sum[s];
 			carry[s] += (sum[s] - (all - z)) + (g - z);
