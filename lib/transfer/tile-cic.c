@@ -71,7 +71,7 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 			memcpy(few, q + i, (m - i) * sizeof *q);
 			strength = pm_simd_load_any(few);
 		}
-		__builtin_prefetch(q + i + PM_TILE_AHEAD);
+		pm_tile_fetch_ahead(q + i);
 		share(&e, strength, i, &s);
 	}
 	add_shares(&s, m, t->corners);

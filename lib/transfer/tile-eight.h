@@ -81,7 +81,7 @@ PM_SIMD_INLINE struct eight find_eight_of(int dim, const struct pm_tile *t, cons
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++) {
 		const double *x = b->x[d] + i;
-		__builtin_prefetch(x + PM_TILE_AHEAD);
+		pm_tile_fetch_ahead(x);
 		double few[PM_SIMD_WIDTH];
 		unsigned outside;
 		if (i + PM_SIMD_WIDTH > b->m) {

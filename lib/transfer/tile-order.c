@@ -82,7 +82,7 @@ PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struc
 			unsigned outside;
 			const pm_simd a = pm_simd_load_any(x[d] + i);
 			pm_simd_split(pm_axis_locate_eight(&mine[d], a, &outside), &cell);
-			__builtin_prefetch(x[d] + i + PM_TILE_AHEAD);
+			pm_tile_fetch_ahead(x[d] + i);
 			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
 		}
@@ -101,7 +101,7 @@ static bool all_inside(const struct pm_tile_order *o, const struct pm_axis_lanes
 		const double *x = pm_column_take(&o->x[d], p, m, few);
 		for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 			unsigned outside;
-			__builtin_prefetch(x + i + PM_TILE_AHEAD);
+			pm_tile_fetch_ahead(x + i);
 			pm_axis_locate_eight(&a, pm_simd_load_any(x + i), &outside);
 			any |= outside;
 		}

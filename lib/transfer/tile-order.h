@@ -74,6 +74,8 @@ static inline bool pm_tile_order_spent(const struct pm_tile_order *o) { return o
 /* Records of the m particles in order from p on, m <= PM_TILE_ORDER_PACK; for a stream that is in order, or stays. Only where values are asked for need those
  * of the order still be there. Of ways a record is: where it begins, the signed length [cells] on each axis, the values. */
 enum { PM_TILE_ORDER_PACK = 256, PM_TILE_AHEAD = 512 }; /* ahead: particles whose positions are fetched before they are needed */
+/* Into the second-level cache: in the first, arrays of whole pages would put each other and the block out (p2m in the plane 0.8 of its time, m2p 0.93). */
+static inline void pm_tile_fetch_ahead(const double *from) { __builtin_prefetch(from + PM_TILE_AHEAD, 0, 2); }
 void pm_tile_order_pack(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *records);
 /* The same as arrays to[numbers of a record][m]; without values only u of each axis. */
 void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bool values, double *const to[]);
