@@ -1,12 +1,13 @@
 /* The kick that closes a step is left, and the push that opens the next one makes it: for a few particles at a time their rates are gathered from the mesh,
- * velocities kicked twice and positions moved, by the loops of state-advance.c, so the same bytes. Only where rates and velocities are so far from overflow
- * that what is left cannot fail. Cost: positions and velocities read and written once, 12 numbers of a particle in space, where m2p and both words of push
- * read and write 30; and a pass over the velocities where their largest is not known. SPDX-License-Identifier: GPL-3.0-or-later */
+ * velocities kicked twice and positions moved, in one loop (kick-drift.h) or by those of state-advance.c: the same bytes. Only where rates and velocities are
+ * so far from overflow that what is left cannot fail. Cost: positions and velocities read and written once, 12 numbers of a particle in space, where m2p and
+ * both words of push read and write 30; and a pass over the velocities where their largest is not known. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/largest.h"
+#include "push/kick-drift.h"
 #include "push/motion-pass.h"
 #include "stream/column.h"
 #include "stream/later.h"
@@ -90,26 +91,39 @@ struct seen {
 struct passing {
 	const struct pm_advance *close, *open; /* close: NULL, v has its kick */
 	int dim, components, rates;            /* of x, v and acc */
+	bool plain; /* they are one or two kicks and a drift: */
+	struct pm_kick_drift step;
 	struct pm_bounds box[3];
 	struct seen *seen; /* [threads] a line of the cache each */
 };
+
+/* Axis c, one action after the other. */
+static void by_actions(const struct passing *k, int c, size_t n, double *x, double *v, const double *rate, struct seen *s)
+{
+	const struct pm_advanced kicked = {.y = v, .k = rate};
+	struct pm_advanced lines[2];
+	int nlines = 0;
+	if (c < k->dim)
+		lines[nlines++] = (struct pm_advanced){.y = x, .k = v, .position = true};
+	if (c < k->rates) {
+		lines[nlines++] = kicked;
+		if (k->close)
+			s->bad |= !pm_advance_few(n, k->close, 1, &kicked, NULL, NULL, NULL);
+	}
+	s->bad |= !pm_advance_few(n, k->open, nlines, lines, x, &k->box[c], &s->most[c]);
+}
 
 static void few(void *data, size_t m, double *const x[3], double *const v[3], const double *const rate[3])
 {
 	const struct passing *k = data;
 	struct seen *s = &k->seen[omp_get_thread_num()];
 	for (int c = 0; c < k->components; c++) {
-		const struct pm_advanced kicked = {.y = v[c], .k = rate[c]};
-		struct pm_advanced lines[2];
-		int n = 0;
-		if (c < k->dim)
-			lines[n++] = (struct pm_advanced){.y = x[c], .k = v[c], .position = true};
-		if (c < k->rates) {
-			lines[n++] = kicked;
-			if (k->close)
-				s->bad |= !pm_advance_few(m, k->close, 1, &kicked, NULL, NULL, NULL);
-		}
-		s->bad |= !pm_advance_few(m, k->open, n, lines, c < k->dim ? x[c] : NULL, &k->box[c], &s->most[c]);
+		const bool moves = c < k->dim, kicked = c < k->rates;
+		bool finite = true;
+		const size_t done = k->plain && moves && kicked ? pm_kick_drift(m, &k->step, &k->box[c], rate[c], v[c], x[c], &s->most[c], &finite) : 0;
+		s->bad |= !finite;
+		if (done < m)
+			by_actions(k, c, m - done, moves ? x[c] + done : NULL, v[c] + done, kicked ? rate[c] + done : NULL, s);
 	}
 }
 
@@ -141,6 +155,7 @@ static int pass(const struct pm_frame *f, const struct pm_moving *m, const struc
 	struct passing k = {.close = left ? &left->kick : NULL, .open = a, .dim = f->dim, .components = m->v->components, .rates = acc->components,
 		.seen = pm_zalloc((size_t)threads, sizeof *k.seen)};
 	struct pm_later *taken = k.seen && left ? pm_field_later_take(m->v) : NULL;
+	k.plain = pm_kick_drift_is(k.close, k.open, &k.step);
 	for (int d = 0; d < f->dim; d++)
 		k.box[d] = (struct pm_bounds){.lo = f->lo[d], .hi = f->hi[d], .fold = true};
 	const int status = k.seen && (taken || !left) ? pm_rate_pass(l, f, m->x, m->v, few, &k) : -PM_DATA;

@@ -190,8 +190,6 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 	for (int c = 0; c < all; c++) {
 		read[c] = from[c] = c < dim ? k->x[c] : k->v[c - dim];
 		y[c] = together ? from[c] + at : c < dim && known ? places[c] : few[c];
-		for (size_t i = 0; i < m && together && c >= dim; i += line)
-			__builtin_prefetch(y[c] + PM_TILE_AHEAD + i, 1);
 	}
 	if (o->place)
 		pm_tile_order_fetch(o, p + m, pack, all, read);
@@ -203,9 +201,9 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
 	for (size_t i = 0; i < m && factor && together; i += line)
 		__builtin_prefetch(factor + PM_TILE_AHEAD + i);
-	for (int c = 0; c < k->rates; c++)
+	for (int c = 0; c < k->rates && factor; c++)
 		for (size_t i = 0; i < m; i++)
-			rate[c][i] *= factor ? factor[i] : k->factor.value;
+			rate[c][i] *= factor[i];
 	k->few(k->data, m, y, y + dim, (const double *const *)rate);
 	if (!together)
 		pm_tile_runs_put(o, p, &runs, all, (const double *const *)y, from);
@@ -225,7 +223,7 @@ bool pm_rate_can_pass(const struct pm_rate_left *l, const struct pm_frame *f, st
 
 int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x, struct pm_field *v, pm_rate_few *few, void *data)
 {
-	struct passing k = {.dim = l->dim, .components = v->components, .rates = l->t.components, .factor = {.value = l->factor}, .few = few, .data = data};
+	struct passing k = {.dim = l->dim, .components = v->components, .rates = l->t.components, .few = few, .data = data};
 	struct pm_transfer t;
 	struct pm_column at[3];
 	const double *mesh[PM_COMPONENTS];
@@ -237,7 +235,7 @@ int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct 
 		k.x[d] = pm_out(x, d), at[d] = pm_column_doubles(k.x[d]);
 	for (int c = 0; c < v->components; c++)
 		k.v[c] = pm_out(v, c);
-	status = status ? status : pm_gather_taken(&t, x->count, at, mesh, &(struct pm_tile_taker){take, &k});
+	status = status ? status : pm_gather_taken(&t, x->count, at, mesh, l->charge ? 1 : l->factor, &(struct pm_tile_taker){take, &k});
 	pm_free(made);
 	pm_field_changed(x);
 	return status;

@@ -112,7 +112,7 @@ static void turn_over(const struct pm_pass *w, size_t p, const struct pm_tile *t
 	double values[PM_COMPONENTS][PM_TILE_ORDER_PACK], *value[PM_COMPONENTS];
 	for (int c = 0; c < w->components; c++) {
 		for (size_t i = 0; i < t->count; i++)
-			values[c][i] = t->results[i * (size_t)t->to + (size_t)c];
+			values[c][i] = r->factor[c].value * t->results[i * (size_t)t->to + (size_t)c];
 		value[c] = values[c];
 	}
 	r->taker->take(r->taker->data, &w->o->order, p, t->count, NULL, value);
@@ -159,7 +159,7 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 	}
 	for (int c = 0; c < w->components; c++)
 		one[c] = (struct pm_column){.value = 1}, set[c] = true, to[c] = (struct pm_target){.doubles = values[c]}, value[c] = values[c];
-	const struct pm_column *now = r->most ? r->factor : one, *then = r->most ? one : r->factor; /* what is looked at has its factor */
+	const struct pm_column *now = r->most || r->taker ? r->factor : one, *then = r->most ? one : r->factor; /* what is looked at has its factor */
 	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
 		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		pm_tile_batch_take(&batch, p, m, few);
@@ -491,15 +491,17 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	return status;
 }
 
-int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[],
+int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], double factor,
 	const struct pm_tile_taker *taker)
 {
 	bool done[PM_COMPONENTS] = {false};
 	const int threads = threads_for(t, n);
 	struct pm_pass w;
 	const struct pm_target to[PM_COMPONENTS] = {{.doubles = NULL}};
-	const struct pm_column one[PM_COMPONENTS] = {{.value = 1}, {.value = 1}, {.value = 1}};
-	const struct pm_tile_results r = {one, t->set, to, NULL, taker};
+	struct pm_column times[PM_COMPONENTS];
+	for (int c = 0; c < t->components; c++)
+		times[c] = (struct pm_column){.value = factor};
+	const struct pm_tile_results r = {times, t->set, to, NULL, taker};
 	pm_pass_next(t, done, &w);
 	int status = begin_gather(&w, n, x, &r, threads);
 	if (!status)

@@ -142,15 +142,16 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 @test "equal bytes: a step by a potential in one pass over the particles, in 1-D to 3-D" {
 	local leapfrog='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick/2' look='diag --tee table --no-history'
 	local euler='p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick drift' c step
+	local halves=${euler/kick drift/kick/2 kick/2 drift/2 drift/2}
 	local open='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p'
 	for c in "landau --dim 1 -n 4000 --cells 64;cic;2;1" "landau --dim 1 -n 4000 --cells 64 --velocities 3;tsc;2;" \
-		"langmuir -n 20000 --cells 5000;cic;2;1" \
+		"langmuir -n 20000 --cells 5000;cic;2;1" "langmuir --dim 1 -n 4001 --cells 60;tsc;2;1" \
 		"uniform --dim 2 -n 30000 --cells 70 --dispersion 1;m4prime;4;1, x" "uniform -n 60000 --cells 40x17x10 --dispersion 1;cic;4;1, x, y" \
 		"uniform -n 60000 --cells 40x17x10 --dispersion 1;tsc;spectral;1, x, y"; do
 		IFS=';' read -r scene kernel order more <<<"$c"
 		# shellcheck disable=SC2086 # words
 		pinit $scene --dt 1e-3 | ssort --no-history >start
-		for step in "$leapfrog" "$euler" "$leapfrog | $look" "$open ${more:+| field 'acc = $more'} | push kick/2" \
+		for step in "$leapfrog" "$euler" "$halves" "$leapfrog | $look" "$open ${more:+| field 'acc = $more'} | push kick/2" \
 			"$open | push kick/2 | p2m --kernel pcs | m2p --kernel pcs --replace"; do
 			step=${step//KERNEL/--kernel $kernel} step=${step//ORDER/--order $order}
 			cycle --no-history --engine pipes -n 5 "$step" <start >want
