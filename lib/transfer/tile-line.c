@@ -63,17 +63,32 @@ static const double *last_few(const double *from, size_t n, double few[PM_SIMD_W
 	return few;
 }
 
-/* The first n of a vector of particles. */
-PM_SIMD_INLINE void add_pairs(size_t n, pm_simd_int cell, pm_simd x, pm_simd q, double *corners)
+/* Those of n <= PM_TILE_ORDER_PACK particles from `from` on, in a loop of their own, as in find_places (tile-eight.h): 0.8 of the step of a plasma. */
+PM_SIMD_INLINE void find_all(bool simple, const struct line *l, size_t from, size_t n, struct places *to)
 {
-	int32_t at[PM_SIMD_WIDTH];
+	const struct line mine = *l; /* in registers */
+	const double *x = mine.x + from;
+	double few[PM_SIMD_WIDTH];
+	pm_simd_int cell;
+	for (size_t i = 0; i < n; i += PM_SIMD_WIDTH) {
+		__builtin_prefetch(x + i + PM_TILE_AHEAD);
+		pm_simd_store(to->distance[0] + i, find(simple, &mine, i + PM_SIMD_WIDTH <= n ? x + i : last_few(x + i, n - i, few), &cell));
+		*(pm_simd_int_at *)(to->at + i) = cell;
+	}
+}
+
+/* Whether the particles of a vector are all in one cell. */
+PM_SIMD_INLINE bool are_together(const int32_t *at) { return pm_simd_int_all(*(const pm_simd_int_at *)at, at[0]); }
+
+/* The first n of a vector of particles. */
+PM_SIMD_INLINE void add_pairs(size_t n, const int32_t *at, pm_simd x, pm_simd q, double *corners)
+{
 	pm_simd2_at pair[PM_SIMD_WIDTH];
-	*(pm_simd_int_at *)at = cell * cell_size;
 	pm_simd_to_pairs((1 - x) * q, x * q, pair);
 	PM_SIMD_UNROLL
 	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
 		if (l < n)
-			*(pm_simd2_at *)(corners + (size_t)(uint32_t)at[l] + l % PM_LINE_PAIRS * 2) += pair[l];
+			*(pm_simd2_at *)(corners + (size_t)(uint32_t)at[l] * cell_size + l % PM_LINE_PAIRS * 2) += pair[l];
 }
 
 /* The pairs of a cell in registers, while whole vectors of particles are in it: those of a stream in the order of cells. */
@@ -111,26 +126,25 @@ PM_SIMD_INLINE void add_to_held(struct held *h, pm_simd x, pm_simd q)
 
 PM_SIMD_INLINE void spread(bool simple, struct line l, const double *q, double *corners)
 {
-	pm_simd_int cell;
+	struct places p;
 	size_t i = 0;
 	struct held h = {.cell = -1};
+	find_all(simple, &l, 0, l.m, &p);
 	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
-		const pm_simd x = find(simple, &l, l.x + i, &cell);
-		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
+		const pm_simd x = pm_simd_load(p.distance[0] + i);
 		__builtin_prefetch(q + i + PM_TILE_AHEAD);
-		if (pm_simd_int_all(cell, cell[0])) {
-			hold(&h, cell[0], corners);
+		if (are_together(p.at + i)) {
+			hold(&h, p.at[i], corners);
 			add_to_held(&h, x, pm_simd_load_any(q + i));
 			continue;
 		}
 		put_back(&h, corners);
-		add_pairs(PM_SIMD_WIDTH, cell, x, pm_simd_load_any(q + i), corners);
+		add_pairs(PM_SIMD_WIDTH, p.at + i, x, pm_simd_load_any(q + i), corners);
 	}
 	put_back(&h, corners);
 	if (i < l.m) {
-		double few[2][PM_SIMD_WIDTH];
-		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few[0]), &cell);
-		add_pairs(l.m - i, cell, x, pm_simd_load_any(last_few(q + i, l.m - i, few[1])), corners);
+		double few[PM_SIMD_WIDTH];
+		add_pairs(l.m - i, p.at + i, pm_simd_load(p.distance[0] + i), pm_simd_load_any(last_few(q + i, l.m - i, few)), corners);
 	}
 }
 
@@ -158,39 +172,37 @@ void pm_tile_line_fold(const struct pm_tile *t, size_t cells)
 }
 
 /* The first n of a vector of particles, to the places from p on. */
-PM_SIMD_INLINE void gather_some(size_t n, pm_simd_int cell, pm_simd x, const struct pm_tile *t, const struct delivery to[], size_t p, pm_simd *nothing)
+PM_SIMD_INLINE void gather_some(size_t n, const int32_t *at, pm_simd x, const struct pm_tile *t, int components, const struct delivery to[], size_t p,
+	pm_simd *nothing)
 {
-	int32_t at[PM_SIMD_WIDTH];
-	const bool one = pm_simd_int_all(cell, cell[0]);
-	*(pm_simd_int_at *)at = cell;
-	for (int c = 0; c < t->components; c++) {
+	const bool one = are_together(at);
+	for (int c = 0; c < components; c++) {
 		const double *block = t->block + (size_t)c * PM_BLOCK_MOST;
 		pm_simd low, high;
 		if (one)
-			low = pm_simd_all(block[cell[0]]), high = pm_simd_all(block[cell[0] + 1]);
+			low = pm_simd_all(block[at[0]]), high = pm_simd_all(block[at[0] + 1]);
 		else
 			load_pairs(block, at, &low, &high);
 		deliver_eight(0 + low * (1 - x) + high * x, n, &to[c], p, nothing);
 	}
 }
 
-PM_SIMD_INLINE bool gather(bool simple, struct line l, const struct pm_tile *t, const struct pm_tile_results *r, size_t p)
+PM_SIMD_INLINE bool gather(bool simple, int components, struct line l, const struct pm_tile *t, const struct pm_tile_results *r, size_t p)
 {
-	pm_simd nothing = {0};
+	const struct pm_tile mine = *t; /* in registers: what is stored might be the caller's */
+	struct places places;
 	struct delivery to[PM_COMPONENTS];
-	pm_simd_int cell;
-	size_t i = 0;
-	for (int c = 0; c < t->components; c++)
+	pm_simd nothing = {0};
+	for (int c = 0; c < components; c++)
 		to[c] = delivery_of(r, c);
-	for (; i + PM_SIMD_WIDTH <= l.m; i += PM_SIMD_WIDTH) {
-		const pm_simd x = find(simple, &l, l.x + i, &cell);
-		__builtin_prefetch(l.x + i + PM_TILE_AHEAD);
-		gather_some(PM_SIMD_WIDTH, cell, x, t, to, p + i, &nothing);
-	}
-	if (i < l.m) {
-		double few[PM_SIMD_WIDTH];
-		const pm_simd x = find(simple, &l, last_few(l.x + i, l.m - i, few), &cell);
-		gather_some(l.m - i, cell, x, t, to, p + i, &nothing);
+	for (size_t from = 0; from < l.m; from += PM_TILE_ORDER_PACK, p += PM_TILE_ORDER_PACK) {
+		const size_t n = l.m - from < PM_TILE_ORDER_PACK ? l.m - from : PM_TILE_ORDER_PACK;
+		size_t i = 0;
+		find_all(simple, &l, from, n, &places);
+		for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
+			gather_some(PM_SIMD_WIDTH, places.at + i, pm_simd_load(places.distance[0] + i), &mine, components, to, p + i, &nothing);
+		if (i < n)
+			gather_some(n - i, places.at + i, pm_simd_load(places.distance[0] + i), &mine, components, to, p + i, &nothing);
 	}
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
 }
@@ -198,5 +210,7 @@ PM_SIMD_INLINE bool gather(bool simple, struct line l, const struct pm_tile *t, 
 bool pm_tile_line_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r)
 {
 	const struct line l = line_of(t, b);
-	return is_simple(&l) ? gather(true, l, t, r, b->p) : gather(false, l, t, r, b->p);
+	if (t->components == 1)
+		return is_simple(&l) ? gather(true, 1, l, t, r, b->p) : gather(false, 1, l, t, r, b->p);
+	return is_simple(&l) ? gather(true, t->components, l, t, r, b->p) : gather(false, t->components, l, t, r, b->p);
 }
