@@ -143,9 +143,15 @@ static void spread_all(const struct spread *s, int threads, size_t under_way, do
 	for (size_t from = 0; from < w->jobs; from += under_way) {
 		const size_t to = w->jobs - from < under_way ? w->jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
-		for (size_t j = from; j < to; j++)
+		for (size_t j = from; j < to; j++) {
+			for (int c = 0; c < 3 && under_way == 1; c++) {
+				unsigned char flip[3];
+				const struct pm_tile_target t = pm_current_target(s->c, s->nodes, s->halves, c, flip);
+				pm_tile_fetch_mesh(w, &w->job[j], &t, mesh[c]);
+			}
 			pm_current_fill(&fill, w, &w->job[j], s->blocks + (j - from) * 3 * PM_BLOCK_MOST,
 				s->cells ? s->cells + omp_get_thread_num() : NULL);
+		}
 		for (size_t j = from; j < to; j++)
 			for (int c = 0; c < 3; c++) {
 				unsigned char flip[3];

@@ -1,37 +1,25 @@
-/* Cloud in cell in 3-D, the everyday kernel. Spread: the eight corners of a cell lie side by side, so that a particle is one addition of eight numbers to its
- * cell; the corners are added up once a tile. Eight particles at a time, from records or straight from a stream in the order of tiles, find their places and
- * weights, which are then turned into one vector a particle. Gather: the two points of a row are loaded for eight particles and turned into two vectors.
- * Every sum has the order of the loops for all kernels: the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cloud in cell in 3-D, the everyday kernel. Beside each point of a row of cells lie the four points of its square, at y and y + 1, z and z + 1: those of
+ * a cell are two squares, one after the other. Spread: a particle is four numbers added to each of its two squares; these are added up once a tile. Gather: it
+ * reads two squares, or, where a register holds four, the two points of each row of the block. Eight particles at a time, from records or straight from a
+ * stream in the order of tiles, find their places and weights, which are then turned into one vector a particle. Sums of a gather have the order of the loops
+ * for all kernels: the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-eight.h"
 
-/* Weights of the corner of a cell at x*4 + y*2 + z. */
-void pm_tile_cic_spread_records(const struct pm_tile *t)
+/* The first square of cells (x fastest). */
+PM_SIMD_INLINE pm_simd_int square_of(const struct eight *e)
 {
-	const int *shift = pm_tile_shift[3];
-	const pm_simd8_at one_x = {1, 1, 1, 1, 0, 0, 0, 0}, one_y = {1, 1, 0, 0, 1, 1, 0, 0}, one_z = {1, 0, 1, 0, 1, 0, 1, 0};
-	const pm_simd8_at sign_x = 1 - 2 * one_x, sign_y = 1 - 2 * one_y, sign_z = 1 - 2 * one_z;
-	const size_t stride = (size_t)t->stride, value = (size_t)t->value;
-	const pm_simd4_int_at first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
-	for (size_t i = 0; i < t->count; i++) {
-		const double *record = t->records + i * stride;
-		double distance[4];
-		int32_t cell[4];
-		pm_simd4_at u = *(const pm_simd4_at *)record;
-		pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at);
-		*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at);
-		*(pm_simd4_int_at *)cell = floor_u - first;
-		size_t at = (((size_t)cell[2] << shift[1]) + (size_t)cell[1]) << shift[0] | (size_t)cell[0];
-		pm_simd8_at *corners = (pm_simd8_at *)(t->corners + at * PM_CORNERS);
-		*corners += (one_z + sign_z * distance[2]) * record[value] * (one_y + sign_y * distance[1]) * (one_x + sign_x * distance[0]);
-	}
+	return ((e->cell[2] << pm_tile_shift[3][1]) + e->cell[1]) * PM_ROW_SQUARES + e->cell[0];
 }
 
-PM_SIMD_INLINE void add_to_cell(double *restrict corners, int32_t cell, const double *yz, double x)
+PM_SIMD_INLINE void add_to_squares(double *restrict squares, int32_t square, const double *yz, double x)
 {
-	pm_simd_add_below_above(corners + (size_t)(uint32_t)cell * PM_CORNERS, yz, x);
+	pm_simd4_at *to = (pm_simd4_at *)(squares + (size_t)(uint32_t)square * PM_SQUARE);
+	const pm_simd4_at four = *(const pm_simd4_at *)yz;
+	to[0] += four * (1 - x);
+	to[1] += four * x;
 }
 
-/* What eight particles add to the corners of their cells, for the loop that adds. */
+/* What some particles add to their squares, for the loop that adds. */
 struct shares {
 	double yz[PM_TILE_ORDER_PACK * 4] __attribute__((aligned(64))), x[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
 	int32_t at[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
@@ -40,21 +28,35 @@ struct shares {
 PM_SIMD_INLINE void share(const struct eight *e, pm_simd strength, size_t i, struct shares *s)
 {
 	const pm_simd low = (1 - e->distance[2]) * strength, high = e->distance[2] * strength, y = e->distance[1], below = 1 - y;
-	*(pm_simd_int_at *)(s->at + i) = cell_of(e);
+	*(pm_simd_int_at *)(s->at + i) = square_of(e);
 	pm_simd_store(s->x + i, e->distance[0]);
 	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, s->yz + 4 * i);
 }
 
-PM_SIMD_INLINE void add_shares(const struct shares *s, size_t m, double *corners)
+PM_SIMD_INLINE void add_share(const struct shares *s, size_t i, size_t l, double *squares)
 {
+	add_to_squares(squares, s->at[i + l], s->yz + 4 * i + turned(l), s->x[i + l]);
+}
+
+/* A lot of m particles is added as STREAMS streams in turn, of so many each, then the rest: in a stream that is in the order of cells a sum would wait for the
+ * one before it. */
+enum { STREAMS = 4 };
+PM_SIMD_INLINE size_t of_each(size_t m) { return m / (STREAMS * 8) * 8; }
+
+PM_SIMD_INLINE void add_shares(const struct shares *s, size_t m, double *squares)
+{
+	const size_t each = of_each(m);
 	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= m; i += PM_SIMD_WIDTH) {
+	for (; i < each; i += PM_SIMD_WIDTH) {
 		PM_SIMD_UNROLL
-		for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-			add_to_cell(corners, s->at[i + l], s->yz + 4 * i + turned(l), s->x[i + l]);
+		for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
+			PM_SIMD_UNROLL
+			for (size_t k = 0; k < STREAMS; k++)
+				add_share(s, i + k * each, l, squares);
+		}
 	}
-	for (size_t l = 0; i + l < m; l++)
-		add_to_cell(corners, s->at[i + l], s->yz + 4 * i + turned(l), s->x[i + l]);
+	for (i *= STREAMS; i < m; i++)
+		add_share(s, i / PM_SIMD_WIDTH * PM_SIMD_WIDTH, i % PM_SIMD_WIDTH, squares);
 }
 
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *batch, const double *q)
@@ -74,7 +76,7 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 		pm_tile_fetch_ahead(q + i);
 		share(&e, strength, i, &s);
 	}
-	add_shares(&s, m, t->corners);
+	add_shares(&s, m, t->squares);
 }
 
 void pm_tile_cic_spread_eight(const struct pm_tile *all)
@@ -95,139 +97,139 @@ void pm_tile_cic_spread_eight(const struct pm_tile *all)
 			}
 			share(&e, strength, i, &s);
 		}
-		add_shares(&s, t.count, t.corners);
+		add_shares(&s, t.count, t.squares);
 	}
 }
 
-typedef pm_simd8_at corners_at;
+/* A particle by itself: the same, where a register holds fewer than four. */
+PM_SIMD_INLINE void add_record(const struct pm_tile *t, const double *record)
+{
+	const pm_simd4_at one_y = {1, 1, 0, 0}, one_z = {1, 0, 1, 0};
+	const pm_simd4_int_at first = {(int32_t)t->cell[0], (int32_t)t->cell[1], (int32_t)t->cell[2], 0};
+	double distance[4], yz[4];
+	int32_t cell[4];
+	pm_simd4_at u = *(const pm_simd4_at *)record;
+	pm_simd4_int_at floor_u = __builtin_convertvector(u, pm_simd4_int_at);
+	*(pm_simd4_at *)distance = u - __builtin_convertvector(floor_u, pm_simd4_at);
+	*(pm_simd4_int_at *)cell = floor_u - first;
+	*(pm_simd4_at *)yz = (one_z + (1 - 2 * one_z) * distance[2]) * record[t->value] * (one_y + (1 - 2 * one_y) * distance[1]);
+	add_to_squares(t->squares, ((cell[2] << pm_tile_shift[3][1]) + cell[1]) * PM_ROW_SQUARES + cell[0], yz, distance[0]);
+}
+
+void pm_tile_cic_spread_records(const struct pm_tile *t)
+{
+	const size_t stride = (size_t)t->stride;
+	for (size_t from = 0, m; from < t->count; from += m) {
+		m = t->count - from < PM_TILE_ORDER_PACK ? t->count - from : PM_TILE_ORDER_PACK;
+		const size_t each = of_each(m);
+		for (size_t i = 0; i < STREAMS * each; i++)
+			add_record(t, t->records + (from + i % STREAMS * each + i / STREAMS) * stride);
+		for (size_t i = STREAMS * each; i < m; i++)
+			add_record(t, t->records + (from + i) * stride);
+	}
+}
+
+typedef pm_simd8_at eight_at;
 typedef pm_simd4_at four_at;
 
-/* The corners of one row of cells, folded along x: point i has the lower half of cell i and the upper half of cell i-1; [y*2 + z] each, zero beyond n. Two
- * cells at a time where a register holds eight. */
-static void fold_row_by_two(size_t n, double *restrict corners, double *restrict to)
+/* Square i of a row, with what the row before has left in before[point][2], to two rows of the block; y + 1 is left for the next. Leaves it zero. */
+PM_SIMD_INLINE void add_square(size_t i, double *restrict squares, double *restrict before, bool first, double *restrict low, double *restrict high)
 {
-	const corners_at zero = {0};
-	corners_at before = zero;
-	size_t i = 0;
-	for (; i < n; i += 2) { /* rows of corners are of even length */
-		corners_at *cells = (corners_at *)(corners + i * PM_CORNERS);
-		const corners_at a = cells[0], b = cells[1];
-		const corners_at lower = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
-		const corners_at upper = __builtin_shufflevector(before, a, 4, 5, 6, 7, 12, 13, 14, 15);
-		*(corners_at *)(to + 4 * i) = lower + upper;
-		cells[0] = cells[1] = zero;
-		before = b;
-	}
-	*(corners_at *)(to + 4 * i) = __builtin_shufflevector(before, zero, 4, 5, 6, 7, 8, 9, 10, 11);
-	for (i += 2; i % 8; i += 2)
-		*(corners_at *)(to + 4 * i) = zero;
+	double *c = squares + PM_SQUARE * i, *left = before + 2 * i;
+	low[i] = first ? c[0] + left[0] : low[i] + (c[0] + left[0]);
+	high[i] = c[1] + left[1];
+	left[0] = c[2], left[1] = c[3];
+	*(pm_simd4_at *)c = (pm_simd4_at){0};
 }
 
-static void fold_row(size_t n, double *restrict corners, double *restrict to)
+/* Eight or four of them from i on. */
+PM_SIMD_INLINE void add_eight_squares(size_t i, double *restrict squares, double *restrict before, bool first, double *restrict low, double *restrict high)
+{
+	const eight_at zero = {0};
+	eight_at here[2], *left = (eight_at *)(before + 2 * i), *c = (eight_at *)(squares + PM_SQUARE * i);
+	PM_SIMD_UNROLL
+	for (size_t k = 0; k < 2; k++) {
+		const eight_at a = c[2 * k], b = c[2 * k + 1];
+		c[2 * k] = c[2 * k + 1] = zero;
+		here[k] = __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13) + left[k];
+		left[k] = __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+	}
+	eight_at even = __builtin_shufflevector(here[0], here[1], 0, 2, 4, 6, 8, 10, 12, 14);
+	if (!first)
+		even += *(eight_at *)(low + i);
+	*(eight_at *)(low + i) = even;
+	*(eight_at *)(high + i) = __builtin_shufflevector(here[0], here[1], 1, 3, 5, 7, 9, 11, 13, 15);
+}
+
+PM_SIMD_INLINE void add_four_squares(size_t i, double *restrict squares, double *restrict before, bool first, double *restrict low, double *restrict high)
 {
 	const four_at zero = {0};
-	four_at before = zero;
-	size_t i = 0;
-	for (; i < n; i++) {
-		four_at *cell = (four_at *)(corners + i * PM_CORNERS);
-		*(four_at *)(to + 4 * i) = cell[0] + before;
-		before = cell[1];
-		cell[0] = cell[1] = zero;
-	}
-	*(four_at *)(to + 4 * i) = before;
-	for (i++; i % 8; i++)
-		*(four_at *)(to + 4 * i) = zero;
+	four_at *left = (four_at *)(before + 2 * i), *from = (four_at *)(squares + PM_SQUARE * i);
+	const four_at p = from[0], q = from[1], r = from[2], s = from[3];
+	from[0] = from[1] = from[2] = from[3] = zero;
+	const four_at a = __builtin_shufflevector(p, q, 0, 4, 2, 6), b = __builtin_shufflevector(p, q, 1, 5, 3, 7);
+	const four_at c = __builtin_shufflevector(r, s, 0, 4, 2, 6), d = __builtin_shufflevector(r, s, 1, 5, 3, 7);
+	four_at even = __builtin_shufflevector(a, c, 0, 1, 4, 5) + left[0];
+	*(four_at *)(high + i) = __builtin_shufflevector(b, d, 0, 1, 4, 5) + left[1];
+	if (!first)
+		even += *(four_at *)(low + i);
+	*(four_at *)(low + i) = even;
+	left[0] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+	left[1] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/* The pairs [y] of a folded row, with those that the row before has left, to two rows of the block; the pairs [y + 1] are left for the next. */
-static void add_pairs_by_eight(size_t n, const double *restrict folded, double *restrict before, bool first, double *restrict low, double *restrict high)
+/* What the last row of a plane has left. */
+static void add_left(size_t n, const double *restrict before, bool first, double *restrict low, double *restrict high)
 {
-	for (size_t i = 0; i < n; i += 8) {
-		corners_at here[2];
-		for (size_t k = 0; k < 2; k++) {
-			const corners_at a = *(const corners_at *)(folded + 4 * i + 16 * k), b = *(const corners_at *)(folded + 4 * i + 16 * k + 8);
-			corners_at *left = (corners_at *)(before + 2 * i + 8 * k);
-			here[k] = __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13) + *left;
-			*left = __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
-		}
-		corners_at even = __builtin_shufflevector(here[0], here[1], 0, 2, 4, 6, 8, 10, 12, 14);
-		if (!first)
-			even += *(corners_at *)(low + i);
-		*(corners_at *)(low + i) = even;
-		*(corners_at *)(high + i) = __builtin_shufflevector(here[0], here[1], 1, 3, 5, 7, 9, 11, 13, 15);
-	}
-}
-
-static void add_pairs(size_t n, const double *restrict folded, double *restrict before, bool first, double *restrict low, double *restrict high)
-{
-	for (size_t i = 0; i < n; i += 4) {
-		four_at *left = (four_at *)(before + 2 * i);
-		const double *from = folded + 4 * i;
-		const four_at p = *(const four_at *)from, q = *(const four_at *)(from + 4), r = *(const four_at *)(from + 8), s = *(const four_at *)(from + 12);
-		const four_at a = __builtin_shufflevector(p, q, 0, 4, 2, 6), b = __builtin_shufflevector(p, q, 1, 5, 3, 7);
-		const four_at c = __builtin_shufflevector(r, s, 0, 4, 2, 6), d = __builtin_shufflevector(r, s, 1, 5, 3, 7);
-		four_at even = __builtin_shufflevector(a, c, 0, 1, 4, 5) + left[0];
-		*(four_at *)(high + i) = __builtin_shufflevector(b, d, 0, 1, 4, 5) + left[1];
-		if (!first)
-			even += *(four_at *)(low + i);
-		*(four_at *)(low + i) = even;
-		left[0] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-		left[1] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+	for (size_t i = 0; i < n; i++) {
+		low[i] = first ? before[2 * i] : low[i] + before[2 * i];
+		high[i] = before[2 * i + 1];
 	}
 }
 
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3])
 {
-	enum { points = 40 }; /* 33 of a row, filled up to whole vectors, which a row of the block has room for */
 	const bool eight = (int)PM_SIMD_PART == 8;
-	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
-	double folded[points * 4] __attribute__((aligned(64))), before[points * 2] __attribute__((aligned(64)));
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3], n = cells[0] + 1, together = eight ? 8 : 4;
+	double before[PM_ROW_SQUARES * 2] __attribute__((aligned(64)));
 	for (size_t z = 0; z < cells[2]; z++) {
 		memset(before, 0, sizeof before);
-		for (size_t y = 0; y <= cells[1]; y++) {
-			double *low = t->block + z * plane + y * row;
-			double *corners = t->corners + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_CORNERS << pm_tile_shift[3][0]);
-			if (y == cells[1])
-				memset(folded, 0, sizeof folded);
-			else if (eight)
-				fold_row_by_two(cells[0], corners, folded);
-			else
-				fold_row(cells[0], corners, folded);
-			if (eight)
-				add_pairs_by_eight(cells[0] + 1, folded, before, z == 0, low, low + plane);
-			else
-				add_pairs(cells[0] + 1, folded, before, z == 0, low, low + plane);
+		for (size_t y = 0; y < cells[1]; y++) {
+			double *low = t->block + z * plane + y * row, *squares = pm_row_squares(t->squares, y, z);
+			size_t i = 0;
+			for (; i + together <= n; i += together) {
+				if (eight)
+					add_eight_squares(i, squares, before, z == 0, low, low + plane);
+				else
+					add_four_squares(i, squares, before, z == 0, low, low + plane);
+			}
+			for (; i < n; i++)
+				add_square(i, squares, before, z == 0, low, low + plane);
 		}
+		add_left(n, before, z == 0, t->block + z * plane + cells[1] * row, t->block + (z + 1) * plane + cells[1] * row);
 	}
 }
 
-/* The block of a component to the corners of its cells: column x of four rows is the lower half of cell x and the upper half of cell x-1. */
-void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners)
+void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *squares)
 {
 	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3];
-	double columns[PM_SIMD_WIDTH * 4] __attribute__((aligned(64)));
 	for (size_t z = 0; z < cells[2]; z++)
 		for (size_t y = 0; y < cells[1]; y++) {
 			const double *low = block + z * plane + y * row;
-			double *to = corners + (((z << pm_tile_shift[3][1]) + y) << pm_tile_shift[3][0]) * PM_CORNERS;
-			for (size_t x = 0; x <= cells[0]; x += PM_SIMD_WIDTH) {
+			double *to = pm_row_squares(squares, y, z);
+			size_t x = 0;
+			for (; x + PM_SIMD_WIDTH <= cells[0] + 1; x += PM_SIMD_WIDTH) {
 				const double *at = low + x;
-				turn_out((const pm_simd[]){pm_simd_load_any(at), pm_simd_load_any(at + plane), pm_simd_load_any(at + row),
-					pm_simd_load_any(at + plane + row)}, columns);
-				for (size_t l = 0; l < PM_SIMD_WIDTH && x + l <= cells[0]; l++) {
-					const pm_simd4_at column = *(const pm_simd4_at *)(columns + turned(l));
-					double *cell = to + (x + l) * PM_CORNERS;
-					if (x + l < cells[0])
-						*(pm_simd4_at *)cell = column;
-					if (x + l > 0)
-						*(pm_simd4_at *)(cell - 4) = column;
-				}
+				pm_simd_store_columns(to + x * PM_SQUARE, (const pm_simd[]){pm_simd_load_any(at), pm_simd_load_any(at + plane),
+					pm_simd_load_any(at + row), pm_simd_load_any(at + plane + row)});
 			}
+			for (; x <= cells[0]; x++)
+				*(four_at *)(to + x * PM_SQUARE) = (four_at){low[x], low[x + plane], low[x + row], low[x + plane + row]};
 		}
 }
 
-/* The eight corners of eight cells to eight vectors, one a corner. */
-PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_simd to[8])
+/* The two squares of eight cells to eight vectors, one a point. */
+PM_SIMD_INLINE void turn_squares(const double *squares, const int32_t *at, pm_simd to[8])
 {
 	PM_SIMD_UNROLL
 	for (int half = 0; half < 2; half++) {
@@ -235,7 +237,7 @@ PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_si
 		pm_simd v[4];
 		PM_SIMD_UNROLL
 		for (int l = 0; l < PM_SIMD_WIDTH; l++)
-			from[l] = corners + 4 * half + (size_t)(uint32_t)at[l] * PM_CORNERS;
+			from[l] = squares + PM_SQUARE * ((size_t)(uint32_t)at[l] + (size_t)half);
 		PM_SIMD_UNROLL
 		for (size_t k = 0; k < 4; k++)
 			v[k] = pm_simd_fours(from, k);
@@ -243,7 +245,7 @@ PM_SIMD_INLINE void turn_corners(const double *corners, const int32_t *at, pm_si
 	}
 }
 
-PM_SIMD_INLINE pm_simd_int place_of(const struct eight *e) { return PM_TILE_CIC_CORNERS ? cell_of(e) : node_of(e); }
+PM_SIMD_INLINE pm_simd_int place_of(const struct eight *e) { return PM_TILE_CIC_SQUARES ? square_of(e) : node_of(e); }
 
 /* Weights of four rows, [y*2 + z]; x of the two halves of each. */
 struct rows {
@@ -277,12 +279,12 @@ PM_SIMD_INLINE void load_rows(const double *block, const int32_t *at, pm_simd to
 	}
 }
 
-/* A component at eight particles: in the order of the loop for all kernels, rows y, then z. from: the corners of its cells, or its block. */
+/* A component at eight particles: in the order of the loop for all kernels, rows y, then z. from: the squares of its cells, or its block. */
 PM_SIMD_INLINE pm_simd value_of(const struct rows *r, const double *from)
 {
 	pm_simd v[8];
-	if (PM_TILE_CIC_CORNERS)
-		turn_corners(from, r->at, v);
+	if (PM_TILE_CIC_SQUARES)
+		turn_squares(from, r->at, v);
 	else
 		load_rows(from, r->at, v);
 	/* 0 +: as the loop begins, so that no sum is -0 */
@@ -293,7 +295,7 @@ PM_SIMD_INLINE pm_simd value_of(const struct rows *r, const double *from)
 
 PM_SIMD_INLINE const double *component(const struct pm_tile *t, int c)
 {
-	return PM_TILE_CIC_CORNERS ? t->corners + (size_t)c * PM_TILE_CELLS * PM_CORNERS : t->block + (size_t)c * PM_BLOCK_MOST;
+	return PM_TILE_CIC_SQUARES ? t->squares + (size_t)c * PM_TILE_SQUARES : t->block + (size_t)c * PM_BLOCK_MOST;
 }
 
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)

@@ -7,8 +7,8 @@
 
 /* Whether eight or four particles at a time are worth it: where a register holds less, the loops over records are faster. */
 enum { PM_TILE_CIC_EIGHT = (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH };
-/* Whether a gather reads the corners of cells; where a register holds four, the two points of each row are read from the block. */
-enum { PM_TILE_CIC_CORNERS = (int)PM_SIMD_PART == 8 };
+/* Whether a gather reads squares; where a register holds four, the two points of each row are read from the block. */
+enum { PM_TILE_CIC_SQUARES = (int)PM_SIMD_PART == 8 };
 
 /* m particles of the stream from p on, all on the mesh, m <= PM_TILE_ORDER_PACK; axes are those of the order. */
 struct pm_tile_batch {
@@ -31,15 +31,20 @@ static inline void pm_tile_batch_take(struct pm_tile_batch *b, size_t p, size_t 
 	for (int d = 0; d < b->order->dim; d++)
 		b->x[d] = few ? pm_tile_order_take(b->order, p, m, &b->order->x[d], few[d]) : pm_column_take(&b->order->x[d], p, m, NULL);
 }
-/* With strengths q[m] to the corners of t. The sums are those of the loop over records. */
+/* With strengths q[m] to the squares of t. The sums are those of the loops over records. */
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);
 void pm_tile_cic_spread_records(const struct pm_tile *t);
 void pm_tile_cic_spread_eight(const struct pm_tile *t); /* the same, eight records at a time */
-/* The corners of the cells[3] cells of the tile to its block, whose values are set, not added to; leaves corners zero. */
+/* Row y of plane z of a tile's squares. */
+static inline double *pm_row_squares(double *squares, size_t y, size_t z)
+{
+	return squares + ((z << pm_tile_shift[3][1]) + y) * ((size_t)PM_ROW_SQUARES * PM_SQUARE);
+}
+/* The squares of the cells[3] cells of the tile to its block, whose values are set, not added to; leaves squares zero. */
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3]);
-/* The block of a component to corners[PM_TILE_CELLS][PM_CORNERS], those of each cell. */
-void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *corners);
-/* Values of t's components from their corners [components][PM_TILE_CELLS][PM_CORNERS]. True if what is left is finite. */
+/* The block of a component to squares[PM_TILE_SQUARES]. */
+void pm_tile_cic_unfold(const double *block, const size_t cells[3], double *squares);
+/* Values of t's components from their squares [components][PM_TILE_SQUARES]. True if what is left is finite. */
 bool pm_tile_cic_gather(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
 void pm_tile_cic_gather_eight(const struct pm_tile *t); /* from records to results, which may be the records */
 

@@ -132,12 +132,6 @@ PM_SIMD_INLINE size_t find_places(int dim, const struct pm_tile *t, const struct
 	return end;
 }
 
-/* Their cells, x fastest. */
-PM_SIMD_INLINE pm_simd_int cell_of(const struct eight *e)
-{
-	return (((e->cell[2] << pm_tile_shift[3][1]) + e->cell[1]) << pm_tile_shift[3][0]) + e->cell[0];
-}
-
 /* Their first points in a block. */
 PM_SIMD_INLINE pm_simd_int node_of(const struct eight *e)
 {

@@ -66,17 +66,9 @@ PM_SIMD_INLINE void run_of(int pairs, bool woven, const struct lines *l, size_t 
 static inline size_t above(size_t i, size_t far, size_t n) { return i + far < n ? i + far : i + far - n; }
 static inline size_t below(size_t i, size_t far, size_t n) { return i >= far ? i - far : i + n - far; }
 
-/* Asks for some nodes of a row. */
-static inline void fetch(const double *row, size_t nodes)
-{
-	enum { line = 8 };
-	for (size_t i = 0; i < nodes + line - 1; i += line)
-		__builtin_prefetch(row + i);
-}
-
 PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *to)
 {
-	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1, reach = (size_t)pairs;
+	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1;
 	const size_t row = (size_t)pm_block_row[3] * step, plane = row * (size_t)pm_block_rows[3];
 	const double *phi = pm_in(g->later.from, 0);
 	const struct pm_axis *a = p->axes;
@@ -92,7 +84,7 @@ PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_lat
 	for (size_t z = 0; z < slots[2]; z++)
 		for (size_t y = 0; y < slots[1]; y++) {
 			const size_t ay = a[1].at[first[1] + y], az = a[2].at[first[2] + z];
-			const double *const in_plane = phi + az * n[1] * n[0], *const next = phi + above(az, 1, n[2]) * n[1] * n[0] + x[begin];
+			const double *const in_plane = phi + az * n[1] * n[0];
 			double *out = to + z * plane + y * row;
 			l.here = in_plane + ay * n[0];
 			PM_SIMD_UNROLL
@@ -102,11 +94,6 @@ PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_lat
 				l.up[1][k] = in_plane + above(ay, far, n[1]) * n[0], l.down[1][k] = in_plane + below(ay, far, n[1]) * n[0];
 				l.up[2][k] = phi + (above(az, far, n[2]) * n[1] + ay) * n[0], l.down[2][k] = phi + (below(az, far, n[2]) * n[1] + ay) * n[0];
 			}
-			fetch(phi + (above(az, reach + 1, n[2]) * n[1] + ay) * n[0] + x[begin], slots[0]);
-			for (size_t k = 1; k <= reach && y == 0; k++) /* rows before and behind those of the tile, of its next plane */
-				fetch(next + below(ay, k, n[1]) * n[0], slots[0]);
-			for (size_t k = 1; k <= reach && y + 1 == slots[1]; k++)
-				fetch(next + above(ay, k, n[1]) * n[0], slots[0]);
 			for (size_t s = begin; s < from; s++)
 				one_node(pairs, woven, &l, x[s], out + (s - begin) * step);
 			if (from < till)
@@ -123,4 +110,24 @@ void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pa
 	case 4: nodes ? nodes_of(2, true, l, p, j, nodes) : nodes_of(2, false, l, p, j, block); break;
 	default: nodes ? nodes_of(3, true, l, p, j, nodes) : nodes_of(3, false, l, p, j, block);
 	}
+}
+
+void pm_tile_gradient_fetch(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j)
+{
+	enum { line = 8 }; /* doubles per line of the cache */
+	const size_t *n = l->operator.grid.points, reach = (size_t)l->operator.order / 2;
+	const double *phi = pm_in(l->later.from, 0);
+	size_t first[3], slots[3];
+	if (!j)
+		return;
+	for (int d = 0; d < 3; d++)
+		slots[d] = pm_tile_slots(p, j->tile, d, &first[d]);
+	const size_t x = p->axes[0].at[first[0]];
+	size_t y0 = below(p->axes[1].at[first[1]], reach, n[1]), z = below(p->axes[2].at[first[2]], reach, n[2]);
+	for (size_t k = 0; k < slots[2] + 2 * reach; k++, z = above(z, 1, n[2]))
+		for (size_t q = 0, y = y0; q < slots[1] + 2 * reach; q++, y = above(y, 1, n[1])) {
+			const double *row = phi + (z * n[1] + y) * n[0] + x;
+			for (size_t i = 0; i < slots[0] + line - 1; i += line)
+				__builtin_prefetch(row + i, 0, 2);
+		}
 }

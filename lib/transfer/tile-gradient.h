@@ -8,5 +8,7 @@
 /* The three components of a job's nodes, as pm_tile_load_block would read them from the mesh: to block[3][PM_BLOCK_MOST], or, if not NULL, to nodes as
  * pm_tile_weave leaves them. The box is periodic. */
 void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block, double *nodes);
+/* Asks for the potential that it reads for a job, if there is one, into the second-level cache. */
+void pm_tile_gradient_fetch(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j);
 
 #endif

@@ -13,7 +13,7 @@ void pm_tile_line_spread_records(const struct pm_tile *t)
 		const double *record = t->records + i * (size_t)t->stride;
 		const int32_t cell = (int32_t)record[0]; /* not negative */
 		const double x = record[0] - (double)cell, q = record[t->value];
-		pm_simd2_at *to = (pm_simd2_at *)(t->corners + ((size_t)cell - t->cell[0]) * cell_size);
+		pm_simd2_at *to = (pm_simd2_at *)(t->squares + ((size_t)cell - t->cell[0]) * cell_size);
 		to[i % PM_LINE_PAIRS] += (pm_simd2_at){(1 - x) * q, x * q};
 	}
 }
@@ -156,9 +156,9 @@ void pm_tile_line_spread(const struct pm_tile *t, const struct pm_tile_batch *b,
 {
 	const struct line l = line_of(t, b);
 	if (is_simple(&l))
-		spread(true, l, q, t->corners);
+		spread(true, l, q, t->squares);
 	else
-		spread(false, l, q, t->corners);
+		spread(false, l, q, t->squares);
 }
 
 void pm_tile_line_fold(const struct pm_tile *t, size_t cells)
@@ -166,7 +166,7 @@ void pm_tile_line_fold(const struct pm_tile *t, size_t cells)
 	const pm_simd2_at zero = {0};
 	double before = 0;
 	for (size_t i = 0; i < cells; i++) {
-		pm_simd2_at *cell = (pm_simd2_at *)(t->corners + i * cell_size);
+		pm_simd2_at *cell = (pm_simd2_at *)(t->squares + i * cell_size);
 		const pm_simd2_at both = cell[0] + cell[1];
 		t->block[i] = before + both[0];
 		before = both[1];

@@ -4,7 +4,7 @@
 
 #include "transfer/tile-cic.h"
 
-/* Spread of a batch of a stream that is in order, of strengths q[m], or of records, to the pairs of t.corners: [PM_TILE_CELLS][PM_LINE_PAIRS][2], zero
+/* Spread of a batch of a stream that is in order, of strengths q[m], or of records, to the pairs of t.squares: [PM_TILE_CELLS][PM_LINE_PAIRS][2], zero
  * before. Batches of a job begin at even numbers. */
 enum { PM_LINE_PAIRS = 2 };
 void pm_tile_line_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);

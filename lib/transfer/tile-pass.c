@@ -1,5 +1,6 @@
 /* Jobs over the tiles of an order, at most so many particles each, and their blocks of mesh points: where points beyond a face are folded back with the sign
  * of their image. Cost: a pass over the blocks. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
 #include <string.h>
 
 #include "transfer/tile-pass.h"
@@ -51,18 +52,26 @@ static void add_row(const struct pm_axis *a, const double *put, size_t first, si
 	memset(row, 0, n * sizeof *row);
 }
 
-/* Asks for the points of a row some rows on, which are too few for the processor to foresee. [n[2]][n[1]] rows of a block at `first`. */
-static void fetch_row(const struct pm_tile_pass *p, const struct pm_tile_target *t, const size_t first[3], const size_t n[3], size_t row, const double *mesh)
+const struct pm_tile_job *pm_tile_next(const struct pm_tile_pass *p, const struct pm_tile_job *j)
 {
-	enum { rows_on = 8, line = 8 }; /* line: doubles per cache line */
-	const size_t soon = row + rows_on;
+	const size_t next = (size_t)(j - p->job) + (size_t)omp_get_num_threads();
+	return next < p->jobs ? &p->job[next] : NULL;
+}
+
+void pm_tile_fetch_mesh(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, const double *mesh)
+{
+	enum { line = 8 }; /* doubles per line of the cache */
 	const struct pm_axis *const *a = t->axes;
-	if (soon >= n[1] * n[2])
-		return;
-	const size_t at_line = a[2]->at[first[2] + soon / n[1]] * p->grid->points[1] + a[1]->at[first[1] + soon % n[1]];
-	const double *at = mesh + (at_line - t->line) * p->grid->points[0] + a[0]->at[first[0]];
-	for (size_t i = 0; i < n[0] + line - 1; i += line)
-		__builtin_prefetch(at + i, 1);
+	size_t first[3], n[3];
+	for (int d = 0; d < 3 && j; d++)
+		n[d] = pm_tile_slots(p, j->tile, d, &first[d]);
+	for (size_t z = 0; j && z < n[2]; z++)
+		for (size_t y = 0; y < n[1]; y++) {
+			const size_t at_line = a[2]->at[first[2] + z] * p->grid->points[1] + a[1]->at[first[1] + y];
+			const double *at = mesh + (at_line - t->line) * p->grid->points[0] + a[0]->at[first[0]];
+			for (size_t i = 0; i < n[0] + line - 1; i += line)
+				__builtin_prefetch(at + i, 0, 2);
+		}
 }
 
 /* The rows of a job's block that belong to this thread. */
@@ -78,7 +87,6 @@ void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j
 	for (size_t z = 0; z < n[2]; z++)
 		for (size_t y = 0; y < n[1]; y++) {
 			size_t sz = first[2] + z, sy = first[1] + y, line = a[2]->at[sz] * g->points[1] + a[1]->at[sy];
-			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			if (line % (size_t)threads == (size_t)thread)
 				add_row(a[0], a[0]->put[flip[0]], first[0], n[0], t->scale * a[2]->put[flip[2]][sz] * a[1]->put[flip[1]][sy],
 					block + z * plane + y * row, mesh + (line - t->line) * g->points[0]);
@@ -129,7 +137,6 @@ void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *
 	for (size_t z = 0; z < n[2]; z++)
 		for (size_t y = 0; y < n[1]; y++) {
 			size_t sz = first[2] + z, sy = first[1] + y, line = a[2]->at[sz] * g->points[1] + a[1]->at[sy];
-			fetch_row(p, t, first, n, z * n[1] + y, mesh);
 			load_row(a[0], a[0]->get[flip[0]], first[0], n[0], a[2]->get[flip[2]][sz] * a[1]->get[flip[1]][sy],
 				mesh + (line - t->line) * g->points[0], block + z * plane + y * row);
 		}

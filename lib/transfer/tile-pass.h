@@ -42,6 +42,11 @@ void pm_tile_add_block(const struct pm_tile_pass *p, const struct pm_tile_job *j
 void pm_tile_add_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, double *row, double *line);
 void pm_tile_load_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, const double *line, double *row);
 enum { PM_TILE_PIECE = 16384 }; /* particles per job: a crowded tile is divided among threads and ranks */
+/* The job that this thread most likely does after j, or NULL. */
+const struct pm_tile_job *pm_tile_next(const struct pm_tile_pass *p, const struct pm_tile_job *j);
+/* Asks for the points of a job's block, if there is one, into the second-level cache: they come while particles go by; as the block is added or read they
+ * would be waited for. */
+void pm_tile_fetch_mesh(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, const double *mesh);
 /* The block of a job, read from the mesh. */
 void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *j, const struct pm_tile_target *t, const double *mesh, double *block);
 

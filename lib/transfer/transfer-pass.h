@@ -21,13 +21,13 @@ struct pm_pass {
 	bool blockwise;  /* gather: positions, factors or targets are not doubles */
 	int to;          /* 0: components */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
-	double *corners; /* NULL or [threads][each][PM_TILE_CELLS][PM_CORNERS], zero */
+	double *squares; /* NULL or [threads][each][PM_TILE_SQUARES], zero */
 };
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */
 bool pm_pass_next(const struct pm_transfer *t, bool done[], struct pm_pass *w);
-int pm_pass_corners(struct pm_pass *w, int threads, size_t cells); /* of so many cells for a thread, if jobs need them; 0 or failure */
-int pm_pass_vectors(struct pm_pass *w, int threads); /* gather: nodes of a vector for a thread, if jobs need them; else corners */
+int pm_pass_squares(struct pm_pass *w, int threads, int each); /* so many for a thread, if jobs need them; 0 or failure */
+int pm_pass_vectors(struct pm_pass *w, int threads); /* gather: nodes of a vector for a thread, if jobs need them; else squares */
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block);
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block);

@@ -278,7 +278,7 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 		status = pm_shared_jobs_init(status, &a.jobs, n, x, w->components, values, 0);
 		status = status ? status : find_edge(&a, false);
 		a.threads = status ? 1 : threads_of(&a.jobs);
-		status = status ? status : pm_pass_corners(w, a.threads, PM_TILE_CELLS);
+		status = status ? status : pm_pass_squares(w, a.threads, 1);
 		if (!status && !(w->blocks = pm_zalloc(pm_tile_under_way(a.threads) * PM_BLOCK_MOST, sizeof *w->blocks)))
 			status = pm_failed();
 		status = pm_world_agree(status);

@@ -170,7 +170,7 @@ PM_SIMD_INLINE void gather_star(int dim, const struct pm_tile *t)
 	}
 }
 
-bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count)
+bool pm_tile_has_squares(int dim, const struct pm_kernel *k, size_t count)
 {
 	return dim != 2 && k->width == 2 && k->degree == 1 && count >= PM_TILE_CELLS / 4;
 }
@@ -206,11 +206,11 @@ static pm_tile_loop *const star_gathers[3] = {gather_star_1, gather_star_2, gath
 static pm_tile_loop *const spreads[2][3][PM_KERNEL_WIDTH] = {TABLE(spread_spline), TABLE(spread_any)};
 static pm_tile_loop *const gathers[2][3][PM_KERNEL_WIDTH] = {TABLE(gather_spline), TABLE(gather_any)};
 
-pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners)
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool squares)
 {
-	if (corners && dim == 1)
+	if (squares && dim == 1)
 		return pm_tile_line_spread_records;
-	if (corners)
+	if (squares)
 		return PM_TILE_CIC_EIGHT ? pm_tile_cic_spread_eight : pm_tile_cic_spread_records;
 	if (pm_tile_has_plane(dim, k))
 		return pm_tile_plane_spread_records;

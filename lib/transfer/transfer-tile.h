@@ -14,7 +14,9 @@ enum { PM_BLOCK_ROW = 32 + 12, PM_BLOCK_ROWS = 16 + 11, PM_BLOCK_PLANES = 8 + 12
 static const int pm_block_row[4] = {0, 4096 + 12, 64 + 12, PM_BLOCK_ROW};
 static const int pm_block_rows[4] = {0, 1, 64 + 11, PM_BLOCK_ROWS};
 static const int pm_block_planes[4] = {0, 1, 1, PM_BLOCK_PLANES};
-enum { PM_BLOCK_MOST = PM_BLOCK_ROW * PM_BLOCK_ROWS * PM_BLOCK_PLANES, PM_TILE_CELLS = 4096, PM_CORNERS = 8 };
+enum { PM_BLOCK_MOST = PM_BLOCK_ROW * PM_BLOCK_ROWS * PM_BLOCK_PLANES, PM_TILE_CELLS = 4096 };
+/* A square is the four points beside a point of a row of cells, at y and y + 1, z and z + 1; a row has 33, to whole lines of the cache 34. */
+enum { PM_SQUARE = 4, PM_ROW_SQUARES = 34, PM_TILE_SQUARES = 16 * 8 * PM_ROW_SQUARES * PM_SQUARE };
 
 /* Arguments of the loops over particles. */
 struct pm_tile {
@@ -30,21 +32,21 @@ struct pm_tile {
 	double *results;        /* gather: [count][to], may be the records */
 	int to;
 	double *nodes;          /* gather: NULL, or the components of each point of the block side by side, four each (tile-vector.h) */
-	double *corners;        /* NULL, or (tile-cic.h, tile-line.h) spread: [PM_TILE_CELLS][PM_CORNERS], zero before, after; gather: so for each component */
+	double *squares;        /* NULL, or (tile-cic.h, tile-line.h) spread: [PM_TILE_SQUARES], zero before, after; gather: so for each component */
 };
 
 /* Chosen by dim and the kernel's width and degree. */
 typedef void pm_tile_loop(const struct pm_tile *t);
-pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool corners);
+pm_tile_loop *pm_tile_spread(int dim, const struct pm_kernel *k, bool squares);
 pm_tile_loop *pm_tile_gather(int dim, const struct pm_kernel *k);
 
 /* m particles of a tile in space, from one on, in the order of their cells, m <= PM_TILE_CELLS: those that come one after the other then read the same
  * points, while they are in the nearest cache. Which comes first changes no value. */
 void pm_tile_order_cells(const struct pm_tile *t, size_t from, size_t m, uint16_t *index);
 
-/* In 3-D a kernel of two points has the eight corners of a cell: where there are about as many particles as cells (count of a job), those of every cell
- * are stored side by side. A particle is one addition of eight numbers to its cell, and the corners are added up once; or it reads eight numbers.
- * On a line those of a cell are two. */
-bool pm_tile_has_corners(int dim, const struct pm_kernel *k, size_t count);
+/* In 3-D a kernel of two points has two squares of four: where there are about as many particles as cells (count of a job), those beside every point of a row
+ * are stored side by side. A particle is two additions of four numbers, and the squares are added up once; or it reads two squares. On a line the points of
+ * every cell are stored side by side. */
+bool pm_tile_has_squares(int dim, const struct pm_kernel *k, size_t count);
 
 #endif

@@ -35,17 +35,17 @@ static void cells_of(const struct pm_pass *w, const struct pm_tile_job *j, size_
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
 	struct pm_tile t = pm_pass_tile(w, j, block);
-	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count), plane = pm_tile_has_plane(w->o->order.dim, w->t->kernel);
-	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, corners);
+	const bool squares = pm_tile_has_squares(w->o->order.dim, w->t->kernel, t.count), plane = pm_tile_has_plane(w->o->order.dim, w->t->kernel);
+	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, squares);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[3][PM_TILE_ORDER_PACK];
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
 	t.value = w->o->order.dim + value;
-	t.corners = corners ? w->corners + (size_t)omp_get_thread_num() * PM_TILE_CELLS * PM_CORNERS : NULL;
+	t.squares = squares ? w->squares + (size_t)omp_get_thread_num() * PM_TILE_SQUARES : NULL;
 	if (t.records)
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		if ((corners || plane) && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
+		if ((squares || plane) && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
 			pm_tile_batch_take(&batch, p, t.count, few);
 			const double *q = pm_tile_order_take(&w->o->order, p, t.count, &w->o->order.values[value], packed);
 			(plane ? pm_tile_plane_spread : w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
@@ -55,7 +55,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		pm_tile_order_pack(&w->o->order, p, t.count, true, packed);
 		loop(&t);
 	}
-	if (corners) {
+	if (squares) {
 		size_t cells[3];
 		cells_of(w, j, cells);
 		if (w->o->order.dim == 1)
@@ -81,8 +81,11 @@ static void spread_component(const struct pm_pass *w, int value, int threads, do
 	for (size_t from = 0; from < w->p.jobs; from += under_way) {
 		size_t to = w->p.jobs - from < under_way ? w->p.jobs : from + under_way;
 #pragma omp for schedule(dynamic, 1)
-		for (size_t j = from; j < to; j++)
+		for (size_t j = from; j < to; j++) {
+			if (under_way == 1)
+				pm_tile_fetch_mesh(&w->p, &w->p.job[j], &to_mesh, mesh);
 			pm_pass_spread(w, &w->p.job[j], value, w->blocks + (j - from) * block);
+		}
 		for (size_t j = from; j < to; j++)
 			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * block, mesh);
 #pragma omp barrier
@@ -184,19 +187,25 @@ static void not_looked_at(const struct pm_tile_results *r)
 		*r->most = INFINITY;
 }
 
-/* The same of cic, by corners of cells or from the block; with records, whose results are checked later, too. */
+/* The same of cic, by squares or from the block; with records, whose results are checked later, too. */
 static bool gather_cic(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, const struct pm_tile_results *r)
 {
-	const size_t each = (size_t)PM_TILE_CELLS * PM_CORNERS;
+	const size_t each = (size_t)PM_TILE_SQUARES;
 	size_t cells[3];
-	if (PM_TILE_CIC_CORNERS)
-		t.corners = w->corners + (size_t)omp_get_thread_num() * (size_t)w->components * each;
+	if (PM_TILE_CIC_SQUARES)
+		t.squares = w->squares + (size_t)omp_get_thread_num() * (size_t)w->components * each;
 	cells_of(w, j, cells);
-	for (int c = 0; c < w->components && PM_TILE_CIC_CORNERS; c++)
-		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.corners + (size_t)c * each);
+	for (int c = 0; c < w->components && PM_TILE_CIC_SQUARES; c++)
+		pm_tile_cic_unfold(t.block + (size_t)c * PM_BLOCK_MOST, cells, t.squares + (size_t)c * each);
 	if (t.records)
 		return pm_tile_cic_gather_eight(&t), true;
 	return w->o->order.floats ? gather_in_order(w, j, t, pm_tile_cic_gather_eight, r) : gather_batches(w, j, &t, pm_tile_cic_gather, r);
+}
+
+static void make_gradient(const struct pm_pass *w, const struct pm_tile_job *j, double *block, double *nodes)
+{
+	pm_tile_gradient(w->t->gradient, &w->p, j, block, nodes);
+	pm_tile_gradient_fetch(w->t->gradient, &w->p, pm_tile_next(&w->p, j));
 }
 
 /* All components at once; with records too. */
@@ -210,7 +219,7 @@ static bool gather_vectors(const struct pm_pass *w, const struct pm_tile_job *j,
 	t.nodes = w->nodes + (size_t)omp_get_thread_num() * pm_vector_groups(w->components) * PM_VECTOR_NODES;
 	double *nodes = t.nodes;
 	if (w->t->gradient)
-		pm_tile_gradient(w->t->gradient, &w->p, j, NULL, nodes);
+		make_gradient(w, j, NULL, nodes);
 	for (int c = 0; c < w->components && !w->t->gradient; c += group, nodes += PM_VECTOR_NODES)
 		pm_tile_weave(t.block + (size_t)c * PM_BLOCK_MOST, w->components - c < group ? w->components - c : group, slots, nodes);
 	const bool straight = !t.records && loop == pm_tile_cic_gather_vectors && !w->o->order.floats;
@@ -230,17 +239,17 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	t.components = w->components;
 	const bool vectors = w->nodes && pm_tile_has_vectors(w->o->order.dim, w->t->kernel, w->components, t.count);
 	if (w->t->gradient && !vectors)
-		pm_tile_gradient(w->t->gradient, &w->p, j, block, NULL);
+		make_gradient(w, j, block, NULL);
 	if (vectors)
 		return gather_vectors(w, j, t, r);
 	not_looked_at(r);
-	const bool corners = pm_tile_has_corners(w->o->order.dim, w->t->kernel, t.count);
-	if (corners && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
+	const bool squares = pm_tile_has_squares(w->o->order.dim, w->t->kernel, t.count);
+	if (squares && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
 		return gather_batches(w, j, &t, pm_tile_line_gather, r);
 	if (pm_tile_has_plane(w->o->order.dim, w->t->kernel) && !t.records && !w->o->order.floats)
 		return gather_batches(w, j, &t, pm_tile_plane_gather, r);
-	const bool lanes = PM_TILE_CIC_CORNERS || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
-	if (lanes && corners && w->o->order.dim == 3)
+	const bool lanes = PM_TILE_CIC_SQUARES || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
+	if (lanes && squares && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);
 	if (!t.records)
 		return gather_in_order(w, j, t, loop, r);
@@ -258,9 +267,11 @@ bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *cons
 		double here = 0;
 		const struct pm_tile_results mine = {r->factor, r->set, r->to, r->most ? &here : NULL, r->taker};
 		double *block = w->blocks + (size_t)omp_get_thread_num() * (size_t)w->components * PM_BLOCK_MOST;
-		for (int c = 0; c < w->components && !w->t->gradient; c++)
-			pm_tile_load_block(&w->p, &w->p.job[j], &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]},
-				mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
+		for (int c = 0; c < w->components && !w->t->gradient; c++) {
+			const struct pm_tile_target from = {.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[c]]};
+			pm_tile_load_block(&w->p, &w->p.job[j], &from, mesh[w->which[c]], block + (size_t)c * PM_BLOCK_MOST);
+			pm_tile_fetch_mesh(&w->p, pm_tile_next(&w->p, &w->p.job[j]), &from, mesh[w->which[c]]);
+		}
 		bad |= !pm_pass_gather(w, &w->p.job[j], block, &mine);
 		most = here > most ? here : most;
 	}
@@ -300,14 +311,14 @@ static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[],
 	return begin_pass(w, pm_tile_under_way(threads), doubles_of_block(w->t->grid.dim));
 }
 
-int pm_pass_corners(struct pm_pass *w, int threads, size_t cells)
+int pm_pass_squares(struct pm_pass *w, int threads, int each)
 {
 	bool used = false;
 	for (size_t j = 0; j < w->p.jobs && !used; j++)
-		used = pm_tile_has_corners(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
+		used = pm_tile_has_squares(w->o->order.dim, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
 	if (used)
-		w->corners = pm_zalloc((size_t)threads * cells * PM_CORNERS, sizeof *w->corners);
-	return used && !w->corners ? -PM_DATA : 0;
+		w->squares = pm_zalloc((size_t)threads * (size_t)each * PM_TILE_SQUARES, sizeof *w->squares);
+	return used && !w->squares ? -PM_DATA : 0;
 }
 
 int pm_pass_vectors(struct pm_pass *w, int threads)
@@ -317,7 +328,7 @@ int pm_pass_vectors(struct pm_pass *w, int threads)
 			w->nodes = pm_alloc((size_t)threads * pm_vector_groups(w->components) * PM_VECTOR_NODES, sizeof *w->nodes);
 			return w->nodes ? 0 : -PM_DATA;
 		}
-	return PM_TILE_CIC_CORNERS && w->o->order.dim == 3 ? pm_pass_corners(w, threads, (size_t)w->components * PM_TILE_CELLS) : 0;
+	return PM_TILE_CIC_SQUARES && w->o->order.dim == 3 ? pm_pass_squares(w, threads, w->components) : 0;
 }
 
 /* Results go into the records where they have room, of a kept order too: mostly nothing else is gathered at these positions, and if it is, the records are
@@ -350,7 +361,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const struct pm_column x[],
 void pm_pass_end(struct pm_pass *w)
 {
 	pm_free(w->nodes);
-	pm_free(w->corners);
+	pm_free(w->squares);
 	pm_free(w->blocks);
 	pm_tile_pass_free(&w->p);
 	pm_free(w->results);
@@ -400,7 +411,7 @@ int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	}
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
-		status = status ? status : pm_pass_corners(&w, threads, PM_TILE_CELLS);
+		status = status ? status : pm_pass_squares(&w, threads, 1);
 		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads, mesh[w.which[c]]);
 		if (!status)
