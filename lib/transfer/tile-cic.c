@@ -164,18 +164,19 @@ PM_SIMD_INLINE void add_eight_squares(size_t i, double *restrict squares, double
 PM_SIMD_INLINE void add_four_squares(size_t i, double *restrict squares, double *restrict before, bool first, double *restrict low, double *restrict high)
 {
 	const four_at zero = {0};
-	four_at *left = (four_at *)(before + 2 * i), *from = (four_at *)(squares + PM_SQUARE * i);
-	const four_at p = from[0], q = from[1], r = from[2], s = from[3];
-	from[0] = from[1] = from[2] = from[3] = zero;
-	const four_at a = __builtin_shufflevector(p, q, 0, 4, 2, 6), b = __builtin_shufflevector(p, q, 1, 5, 3, 7);
-	const four_at c = __builtin_shufflevector(r, s, 0, 4, 2, 6), d = __builtin_shufflevector(r, s, 1, 5, 3, 7);
-	four_at even = __builtin_shufflevector(a, c, 0, 1, 4, 5) + left[0];
-	*(four_at *)(high + i) = __builtin_shufflevector(b, d, 0, 1, 4, 5) + left[1];
+	four_at here[2], *left = (four_at *)(before + 2 * i), *c = (four_at *)(squares + PM_SQUARE * i);
+	PM_SIMD_UNROLL
+	for (size_t k = 0; k < 2; k++) {
+		const four_at a = c[2 * k], b = c[2 * k + 1];
+		c[2 * k] = c[2 * k + 1] = zero;
+		here[k] = __builtin_shufflevector(a, b, 0, 1, 4, 5) + left[k];
+		left[k] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+	}
+	four_at even = __builtin_shufflevector(here[0], here[1], 0, 2, 4, 6);
 	if (!first)
 		even += *(four_at *)(low + i);
 	*(four_at *)(low + i) = even;
-	left[0] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-	left[1] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+	*(four_at *)(high + i) = __builtin_shufflevector(here[0], here[1], 1, 3, 5, 7);
 }
 
 /* What the last row of a plane has left. */
