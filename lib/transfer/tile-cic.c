@@ -191,19 +191,17 @@ static void add_left(size_t n, const double *restrict before, bool first, double
 void pm_tile_cic_fold(const struct pm_tile *t, const size_t cells[3])
 {
 	const bool eight = (int)PM_SIMD_PART == 8;
-	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3], n = cells[0] + 1, together = eight ? 8 : 4;
+	const size_t row = (size_t)pm_block_row[3], plane = row * (size_t)pm_block_rows[3], n = cells[0] + 1;
 	double before[PM_ROW_SQUARES * 2] __attribute__((aligned(64)));
 	for (size_t z = 0; z < cells[2]; z++) {
 		memset(before, 0, sizeof before);
 		for (size_t y = 0; y < cells[1]; y++) {
 			double *low = t->block + z * plane + y * row, *squares = pm_row_squares(t->squares, y, z);
 			size_t i = 0;
-			for (; i + together <= n; i += together) {
-				if (eight)
-					add_eight_squares(i, squares, before, z == 0, low, low + plane);
-				else
-					add_four_squares(i, squares, before, z == 0, low, low + plane);
-			}
+			for (; eight && i + 8 <= n; i += 8)
+				add_eight_squares(i, squares, before, z == 0, low, low + plane);
+			for (; i + 4 <= n; i += 4)
+				add_four_squares(i, squares, before, z == 0, low, low + plane);
 			for (; i < n; i++)
 				add_square(i, squares, before, z == 0, low, low + plane);
 		}
