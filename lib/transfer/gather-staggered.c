@@ -65,9 +65,8 @@ static void load_blocks(const struct staggered *s, const struct pm_tile_job *j, 
 		const struct pm_axis *a = s->axes[c];
 		struct pm_tile_pass p = s->pass;
 		p.axes = a;
-		const struct pm_tile_target from = {.axes = {&a[0], &a[1], &a[2]}, .flip = s->t->flip[c]};
-		pm_tile_load_block(&p, j, &from, mesh[c], block + (size_t)c * PM_BLOCK_MOST);
-		pm_tile_fetch_mesh(&p, pm_tile_next(&p, j), &from, mesh[c]);
+		pm_tile_load_block(&p, j, &(struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = s->t->flip[c]}, mesh[c],
+			block + (size_t)c * PM_BLOCK_MOST);
 	}
 }
 

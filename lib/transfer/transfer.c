@@ -8,6 +8,7 @@
 #include "transfer/tile-gradient.h"
 #include "transfer/tile-line.h"
 #include "transfer/tile-plane.h"
+#include "transfer/tile-stretches.h"
 #include "transfer/tile-vector.h"
 #include "transfer/transfer-pass.h"
 
@@ -71,24 +72,29 @@ static size_t doubles_of_block(int dim)
 	return ((size_t)pm_block_row[dim] * (size_t)pm_block_rows[dim] * (size_t)pm_block_planes[dim] + 7) / 8 * 8;
 }
 
-/* Jobs are done in waves: every thread fills blocks of the wave, then adds to its own mesh lines from all blocks in order. */
-static void spread_component(const struct pm_pass *w, int value, int threads, double *mesh)
+/* No more than there are jobs, and blocks. */
+static int threads_of(const struct pm_pass *w, int threads) { return (size_t)threads < w->p.jobs ? threads : (int)w->p.jobs + !w->p.jobs; }
+
+static struct pm_tile_target mesh_of(const struct pm_pass *w, int value)
 {
 	const struct pm_axis *a = w->o->axes;
-	const struct pm_tile_target to_mesh = {.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[value]], .scale = 1 / pm_grid_cell(&w->t->grid)};
-	const size_t under_way = pm_tile_under_way(threads), block = doubles_of_block(w->t->grid.dim);
+	return (struct pm_tile_target){.axes = {&a[0], &a[1], &a[2]}, .flip = w->t->flip[w->which[value]], .scale = 1 / pm_grid_cell(&w->t->grid)};
+}
+
+static void spread_component(const struct pm_pass *w, int value, int threads, const struct pm_tile_stretches *s, double *mesh)
+{
+	const struct pm_tile_target to_mesh = mesh_of(w, value);
 #pragma omp parallel num_threads(threads)
-	for (size_t from = 0; from < w->p.jobs; from += under_way) {
-		size_t to = w->p.jobs - from < under_way ? w->p.jobs : from + under_way;
+	{
+		double *block = w->blocks + (size_t)omp_get_thread_num() * doubles_of_block(w->t->grid.dim);
 #pragma omp for schedule(dynamic, 1)
-		for (size_t j = from; j < to; j++) {
-			if (under_way == 1)
+		for (size_t k = 0; k < s->count; k++)
+			for (size_t j = s->stretch[k].from, kept = 0; j < s->stretch[k].to; j++) {
 				pm_tile_fetch_mesh(&w->p, &w->p.job[j], &to_mesh, mesh);
-			pm_pass_spread(w, &w->p.job[j], value, w->blocks + (j - from) * block);
-		}
-		for (size_t j = from; j < to; j++)
-			pm_tile_add_block(&w->p, &w->p.job[j], &to_mesh, omp_get_thread_num(), threads, w->blocks + (j - from) * block, mesh);
-#pragma omp barrier
+				pm_pass_spread(w, &w->p.job[j], value, block);
+				pm_tile_stretch_add(s, k, &w->p, &w->p.job[j], &to_mesh, block, mesh, &kept);
+			}
+		pm_tile_stretches_add_kept(s, &w->p, &to_mesh, omp_get_thread_num(), threads, mesh);
 	}
 }
 
@@ -308,7 +314,7 @@ static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[],
 	for (int c = 0; c < w->components; c++)
 		values[c] = strength[w->which[c]];
 	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0);
-	return begin_pass(w, pm_tile_under_way(threads), doubles_of_block(w->t->grid.dim));
+	return begin_pass(w, (size_t)threads, doubles_of_block(w->t->grid.dim));
 }
 
 int pm_pass_squares(struct pm_pass *w, int threads, int each)
@@ -411,9 +417,15 @@ int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 	}
 	while (n && !status && pm_pass_next(t, done, &w)) {
 		status = begin_spread(&w, n, x, strength, threads);
+		struct pm_tile_stretches s = {.count = 0};
 		status = status ? status : pm_pass_squares(&w, threads, 1);
+		if (!status) {
+			const struct pm_tile_target lines = mesh_of(&w, 0);
+			status = pm_tile_stretches_init(&s, &w.p, &lines, threads_of(&w, threads));
+		}
 		for (int c = 0; c < w.components && !status; c++)
-			spread_component(&w, c, threads, mesh[w.which[c]]);
+			spread_component(&w, c, threads_of(&w, threads), &s, mesh[w.which[c]]);
+		pm_tile_stretches_free(&s);
 		if (!status)
 			*strays = w.o->strays;
 		pm_pass_end(&w);
@@ -445,9 +457,6 @@ static int gather_ranks(const struct pm_transfer *t, size_t n, const struct pm_c
 		to[c] = out[c].doubles;
 	return pm_gather_ranks(t, n, at, mesh, times, to, strays);
 }
-
-/* No more than there are jobs, and blocks. */
-static int threads_of(const struct pm_pass *w, int threads) { return (size_t)threads < w->p.jobs ? threads : (int)w->p.jobs + !w->p.jobs; }
 
 int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], const struct pm_column factor[],
 	const struct pm_target out[], struct pm_strays *strays)
