@@ -71,7 +71,7 @@ commands = {
 
 
 def run(words, **more):
-    """Its exit status, standard output with the file `out` behind it, standard error, and the other files it left."""
+    """Its exit status, standard output, the file `out`, standard error, and the other files it left."""
     for name in os.listdir("run"):
         os.unlink(os.path.join("run", name))
     env = {**os.environ, "LD_PRELOAD": os.path.abspath("fail.so"), **more}
@@ -81,11 +81,10 @@ def run(words, **more):
     except subprocess.TimeoutExpired:
         p.kill()
         p.communicate()
-        return 124, b"", b"it did not end", []
+        return 124, b"", b"", b"it did not end", []
     left = os.listdir("run")
-    if "out" in left:
-        out += open("run/out", "rb").read()
-    return p.returncode, out, said, sorted(set(left) - {"out"})
+    file = open("run/out", "rb").read() if "out" in left else b""
+    return p.returncode, out, file, said, sorted(set(left) - {"out"})
 
 
 def cut_short(got, want):
@@ -97,10 +96,11 @@ def cut_short(got, want):
     return aborted and not rest.strip(b"\0")
 
 
-def outcome(status, got, said, left, want):
-    if status == 0 and got == want[1] and left == want[3]:
+def outcome(status, got, file, said, left, want):
+    """A checkpoint that was written stays, whatever becomes of the output behind it."""
+    if status == 0 and got == want[1] and file == want[2] and left == want[4]:
         return "same"
-    return "message" if status == 1 and said and not left and cut_short(got, want[1]) else "wrong"
+    return "message" if status == 1 and said and not left and cut_short(got, want[1]) and cut_short(file, want[2]) else "wrong"
 
 
 def all_failures(name, words, every):
@@ -108,7 +108,7 @@ def all_failures(name, words, every):
         os.unlink("count")
     want = run(words, FAIL_AT="0", FAIL_COUNT=os.path.abspath("count"))
     if want[0]:
-        print("%s fails by itself: %s" % (name, want[2]))
+        print("%s fails by itself: %s" % (name, want[3]))
         return {"wrong": 1}
     calls = max(int(n) for n in open("count").read().split())
     count = {"same": 0, "message": 0, "wrong": 0}
@@ -119,7 +119,7 @@ def all_failures(name, words, every):
             count[what] += 1
             if what == "wrong":
                 print("  %s: call %d%s: status %d, %d bytes, files %s: %s" % (name, n, " and all behind it" if mode else "", result[0], len(result[1]),
-                    result[3], result[2][:160]))
+                    result[4], result[3][:160]))
     print("%s: %d calls, %d failures: %d the same bytes, %d a message and exit 1, %d neither" % (name, calls, sum(count.values()), count["same"],
         count["message"], count["wrong"]), flush=True)
     return count

@@ -518,19 +518,6 @@ PM_SIMD_INLINE void pm_simd_to_pairs(pm_simd a, pm_simd b, pm_simd2_at to[])
 	to[0] = __builtin_shufflevector(even, even, 0, 1), to[2] = __builtin_shufflevector(even, even, 2, 3);
 	to[1] = __builtin_shufflevector(odd, odd, 0, 1), to[3] = __builtin_shufflevector(odd, odd, 2, 3);
 }
-
-/* to[0..3] += (1 - x) p[0..3], to[4..7] += x p[0..3]; `to` aligned as a line of the cache. */
-PM_SIMD_INLINE void pm_simd_add_below_above(double *to, const double *p, double x)
-{
-#ifdef __AVX512F__
-	pm_simd_store(to, pm_simd_load(to) + (pm_simd)_mm512_broadcast_f64x4(_mm256_loadu_pd(p)) * pm_simd8_below_above(x));
-#else
-	pm_simd4_at *at = (pm_simd4_at *)to;
-	const pm_simd4_at four = *(const pm_simd4_at *)p;
-	at[0] += four * (1 - x);
-	at[1] += four * x;
-#endif
-}
 #endif
 
 /* exp(x) for |x| <= 700, to 4e-16: 2^n exp(r) with |r| <= ln(2)/2, the polynomial of degree 10 with the least relative error there (2.1e-16; Remez's

@@ -142,7 +142,7 @@ void pm_tile_load_block(const struct pm_tile_pass *p, const struct pm_tile_job *
 		}
 }
 
-/* ---- row by row, for blocks whose rows are on other ranks ---- */
+/* ---- row by row, for blocks whose rows are on other ranks or wait for others ---- */
 
 void pm_tile_add_row(const struct pm_tile_target *t, const size_t first[3], size_t n, size_t z, size_t y, double *row, double *line)
 {

@@ -1,6 +1,7 @@
 /* A spread over jobs on several threads: jobs one after the other are a stretch, which a thread does with one block. A line of the mesh that no stretch before
  * touches is added to at once, while the block is in the cache; the other rows are kept until all stretches have been, and added in their order. So a point's
- * sum has the order of the tiles, as on one thread: the same bytes. Cost: what is kept, some planes of the mesh, is written and read once more.
+ * sum has the order of the tiles, as on one thread: the same bytes. Cost: what is kept is written and read once more: some planes of the
+ * mesh, by wide kernels and on many threads, whose stretches are a tile or two, up to a few times the mesh.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 

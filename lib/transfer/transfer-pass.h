@@ -21,7 +21,7 @@ struct pm_pass {
 	bool blockwise;  /* gather: positions, factors or targets are not doubles */
 	int to;          /* 0: components */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
-	double *squares; /* NULL or [threads][each][PM_TILE_SQUARES], zero */
+	double *squares; /* NULL or [threads][each][PM_TILE_SQUARES], before a spread zero */
 };
 
 /* The next pass: the first component not yet done, and all with the same offset. False if there is none. */

@@ -94,7 +94,7 @@ static void spread_component(const struct pm_pass *w, int value, int threads, co
 				pm_pass_spread(w, &w->p.job[j], value, block);
 				pm_tile_stretch_add(s, k, &w->p, &w->p.job[j], &to_mesh, block, mesh, &kept);
 			}
-		pm_tile_stretches_add_kept(s, &w->p, &to_mesh, omp_get_thread_num(), threads, mesh);
+		pm_tile_stretches_add_kept(s, &w->p, &to_mesh, omp_get_thread_num(), omp_get_num_threads(), mesh);
 	}
 }
 
