@@ -31,14 +31,18 @@ PM_SIMD_INLINE void some_nodes(int pairs, bool woven, const struct lines *l, siz
 		pm_simd_store_any(to, x), pm_simd_store_any(to + PM_BLOCK_MOST, y), pm_simd_store_any(to + 2 * PM_BLOCK_MOST, z);
 }
 
+/* So many nodes up and down a periodic axis of n nodes; a quotient would take longer than the differences of a row. */
+static inline size_t above(size_t i, size_t far, size_t n) { return i + far < n ? i + far : i + far - n; }
+static inline size_t below(size_t i, size_t far, size_t n) { return i >= far ? i - far : i + n - far; }
+
 /* Node i, by itself. */
 PM_SIMD_INLINE void one_node(int pairs, bool woven, const struct lines *l, size_t i, double *to)
 {
 	for (int d = 0; d < 3; d++) {
 		double sum = 0;
 		for (int k = 0; k < pairs; k++) {
-			const size_t far = (size_t)k + 1, above = i + far < l->n ? i + far : i + far - l->n, below = i >= far ? i - far : i + l->n - far;
-			const double up = d ? l->up[d][k][i] : l->here[above], down = d ? l->down[d][k][i] : l->here[below];
+			const size_t far = (size_t)k + 1;
+			const double up = d ? l->up[d][k][i] : l->here[above(i, far, l->n)], down = d ? l->down[d][k][i] : l->here[below(i, far, l->n)];
 			sum = k ? sum + l->w[d][k] * (up - down) : l->w[d][0] * (up - down);
 		}
 		to[woven ? (size_t)d : (size_t)d * PM_BLOCK_MOST] = sum;
@@ -61,10 +65,6 @@ PM_SIMD_INLINE void run_of(int pairs, bool woven, const struct lines *l, size_t 
 	for (; i < m; i++)
 		one_node(pairs, woven, l, from + i, to + i * step);
 }
-
-/* So many nodes up and down a periodic axis of n nodes; a quotient would take longer than the differences of a row. */
-static inline size_t above(size_t i, size_t far, size_t n) { return i + far < n ? i + far : i + far - n; }
-static inline size_t below(size_t i, size_t far, size_t n) { return i >= far ? i - far : i + n - far; }
 
 PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *to)
 {
