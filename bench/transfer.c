@@ -37,6 +37,15 @@ static void place(struct run *r, bool ordered)
 	}
 }
 
+/* Whether tiles fill the axes, so that place() can put particles into their order. */
+static bool tiles_fill(int dim, size_t cells)
+{
+	bool fill = true;
+	for (int d = 0; d < dim; d++)
+		fill = fill && (cells >> pm_tile_shift[dim][d] == 0 || cells % ((size_t)1 << pm_tile_shift[dim][d]) == 0);
+	return fill;
+}
+
 static void pass(void *with)
 {
 	struct run *r = with;
@@ -187,7 +196,10 @@ int main(int argc, char **argv)
 		for (n = 0, names = (const char **)pm_kernel_names; names[n];)
 			n++;
 	bool peer = finufft_open(&finufft);
-	for (int ordered = 0; ordered < 2; ordered++) {
+	const bool fill = tiles_fill(dim, r.cells);
+	if (!fill)
+		fprintf(stderr, "transfer: no rows in the order of tiles (CELLS is no multiple of their edges)\n");
+	for (int ordered = 0; ordered < 1 + fill; ordered++) {
 		if (!ordered)
 			place(&r, false);
 		if (peer && !ordered)
