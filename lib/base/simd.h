@@ -207,6 +207,26 @@ PM_SIMD_INLINE pm_simd pm_simd_shift_down(pm_simd here, pm_simd after)
 	return PM_SIMD_PICK(here, after, (1, 2, 3, 4, 5, 6, 7, 8), (1, 2, 3, 4), (1, 2));
 }
 
+/* The vector k lanes on, 0 < k < PM_SIMD_WIDTH, a constant: those of a from k on, then the first of b. */
+PM_SIMD_INLINE pm_simd pm_simd_lanes_from(int k, pm_simd a, pm_simd b)
+{
+#ifdef __AVX512F__ /* of a shuffle gcc makes two instructions and a table */
+#define PM_SIMD_FROM(k) (pm_simd)_mm512_alignr_epi64((__m512i)b, (__m512i)a, k)
+#else
+#define PM_SIMD_FROM(k) PM_SIMD_PICK(a, b, (k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7), (k & 3, (k & 3) + 1, (k & 3) + 2, (k & 3) + 3), (1, 2))
+#endif
+	switch (k) {
+	case 2: return PM_SIMD_FROM(2);
+	case 3: return PM_SIMD_FROM(3);
+	case 4: return PM_SIMD_FROM(4);
+	case 5: return PM_SIMD_FROM(5);
+	case 6: return PM_SIMD_FROM(6);
+	case 7: return PM_SIMD_FROM(7);
+	default: return PM_SIMD_FROM(1);
+	}
+#undef PM_SIMD_FROM
+}
+
 /* Two vectors in order to the values of even and of odd number, and back. */
 PM_SIMD_INLINE pm_simd pm_simd_even(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (0, 2, 4, 6, 8, 10, 12, 14), (0, 2, 4, 6), (0, 2)); }
 PM_SIMD_INLINE pm_simd pm_simd_odd(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (1, 3, 5, 7, 9, 11, 13, 15), (1, 3, 5, 7), (1, 3)); }
@@ -367,6 +387,18 @@ PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
 #else
 	*whole = __builtin_convertvector(v, pm_simd_int);
 	return v - __builtin_convertvector(*whole, pm_simd);
+#endif
+}
+
+/* 0, 1, 2, ... */
+PM_SIMD_INLINE pm_simd_int pm_simd_int_lanes(void)
+{
+#if defined PM_SIMD_EIGHT
+	return (pm_simd_int){0, 1, 2, 3, 4, 5, 6, 7};
+#elif defined PM_SIMD_FOUR
+	return (pm_simd_int){0, 1, 2, 3};
+#else
+	return (pm_simd_int){0, 1};
 #endif
 }
 

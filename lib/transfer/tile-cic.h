@@ -16,7 +16,17 @@ struct pm_tile_batch {
 	struct pm_axis_lanes lanes[3];
 	size_t p, m;
 	const double *x[3]; /* their positions */
+	const struct pm_column *values; /* spread: of the stream, what is added */
+	const uint32_t *next; /* where they are copies, [PM_TILE_ORDER_PACK] the places of the next ones; NULL: not known */
 };
+/* The line of the cache that a loop over the batch needs later, as it gets to i: of values[m] from a column of the stream. */
+static inline void pm_tile_batch_fetch(const struct pm_tile_batch *b, const struct pm_column *from, const double *values, size_t i)
+{
+	if (b->next)
+		__builtin_prefetch(from->doubles + b->next[i], 0, 2);
+	else
+		pm_tile_fetch_ahead(values + i);
+}
 static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
 {
 	struct pm_tile_batch b = {.order = o};
@@ -28,9 +38,13 @@ static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
 static inline void pm_tile_batch_take(struct pm_tile_batch *b, size_t p, size_t m, double few[3][PM_TILE_ORDER_PACK])
 {
 	b->p = p, b->m = m;
+	b->next = few && b->order->place && !b->order->columns && b->order->n - p >= m + PM_TILE_ORDER_PACK ? b->order->place + p + m : NULL;
 	for (int d = 0; d < b->order->dim; d++)
 		b->x[d] = few ? pm_tile_order_take(b->order, p, m, &b->order->x[d], few[d]) : pm_column_take(&b->order->x[d], p, m, NULL);
 }
+/* Loops over a batch: to a tile with strengths q[m]; from it, true if what is left is finite. */
+typedef void pm_tile_spread_loop(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);
+typedef bool pm_tile_gather_loop(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
 /* With strengths q[m] to the squares of t. The sums are those of the loops over records. */
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);
 void pm_tile_cic_spread_records(const struct pm_tile *t);

@@ -5,62 +5,101 @@
  * kernels (transfer-tile.c): the same bytes. Cost: width^dim products per particle and component. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "transfer/tile-eight.h"
 #include "transfer/tile-lanes.h"
+#include "transfer/tile-neighbours.h"
 #include "transfer/tile-vector.h"
 #include "transfer/tile-wide.h"
 
-enum { node_row = PM_NODE_ROW, node_plane = PM_NODE_PLANE, most = 8 /* points */ };
+enum { node_row = PM_NODE_ROW, node_plane = PM_NODE_PLANE };
 
-/* Particles side by side: their first points, and their weights. */
-struct lot {
-	size_t at[PM_SIMD_WIDTH];
-	double x[most * PM_SIMD_WIDTH] __attribute__((aligned(64)));        /* [point][particle] */
-	double f[most * most * PM_SIMD_WIDTH] __attribute__((aligned(64))); /* [z][y][particle] */
-};
-
-/* w[k] of point k: those of find_weights (tile-lanes.h) to the last bit. */
-PM_SIMD_INLINE void weights_of(const struct pm_kernel *kernel, int width, int degree, pm_simd t, pm_simd *w)
+/* w[d][k] of point k on axis d: those of find_weights (tile-lanes.h) to the last bit. Sums wait for the power before, so those of all points go on together. */
+PM_SIMD_INLINE void weights_of(int dim, const struct pm_kernel *kernel, int width, int degree, const pm_simd t[3], pm_simd w[3][most])
 {
 	const bool may_fold = pm_kernel_folds(width, degree, 1);
-	const pm_simd_bits fold = t > 0.5;
-	const pm_simd s = may_fold ? (pm_simd)((fold & (pm_simd_bits)(1 - t)) | (~fold & (pm_simd_bits)t)) : t;
-	pm_simd v[most];
+	const double *coefficient = kernel->coefficients + degree * width;
+	pm_simd_bits fold[3];
+	pm_simd s[3], v[3][most];
 	PM_SIMD_UNROLL
-	for (int k = 0; k < width; k++) {
-		v[k] = pm_simd_all(kernel->coefficients[degree * width + k]);
-		for (int power = degree - 1; power >= 0; power--)
-			v[k] = v[k] * s + kernel->coefficients[power * width + k];
+	for (int d = 0; d < dim; d++) {
+		fold[d] = t[d] > 0.5;
+		s[d] = may_fold ? (pm_simd)((fold[d] & (pm_simd_bits)(1 - t[d])) | (~fold[d] & (pm_simd_bits)t[d])) : t[d];
+		PM_SIMD_UNROLL
+		for (int k = 0; k < width; k++)
+			v[d][k] = pm_simd_all(coefficient[k]);
+	}
+	for (int power = degree - 1; power >= 0; power--) {
+		coefficient -= width;
+		PM_SIMD_UNROLL
+		for (int k = 0; k < width; k++)
+			PM_SIMD_UNROLL
+			for (int d = 0; d < dim; d++)
+				v[d][k] = v[d][k] * s[d] + coefficient[k];
 	}
 	PM_SIMD_UNROLL
-	for (int k = 0; k < width; k++)
-		w[k] = may_fold ? (pm_simd)((fold & (pm_simd_bits)v[width - 1 - k]) | (~fold & (pm_simd_bits)v[k])) : v[k];
+	for (int d = 0; d < dim; d++)
+		PM_SIMD_UNROLL
+		for (int k = 0; k < width; k++)
+			w[d][k] = may_fold ? (pm_simd)((fold[d] & (pm_simd_bits)v[d][width - 1 - k]) | (~fold[d] & (pm_simd_bits)v[d][k])) : v[d][k];
 }
 
-/* The particles of index[], with the number of doubles from point to point; strength: of spread, where the product of rows has it, or NULL. */
-PM_SIMD_INLINE void find_lot(int dim, int width, int degree, const struct pm_tile *t, const size_t *index, int each, const pm_simd *strength, struct lot *lot)
+/* The weights of particles side by side: x[point], f[z][y]; strength: of spread, where the product of rows has it, or NULL. */
+PM_SIMD_INLINE void find_factors(int dim, int width, int degree, const struct pm_tile *t, const pm_simd *distance, const pm_simd *strength, pm_simd *x,
+	pm_simd *f)
 {
-	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
-	const double *record[PM_SIMD_WIDTH];
-	pm_simd w[3][most], unused;
-	int32_t at[PM_SIMD_WIDTH] __attribute__((aligned(32)));
+	pm_simd from[3], w[3][most];
 	PM_SIMD_UNROLL
-	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-		record[l] = t->records + index[l] * (size_t)t->stride;
-	struct eight e = find_eight_at(t, record, &unused);
 	for (int d = 0; d < dim; d++)
-		weights_of(t->kernel, width, degree, e.distance[d] - t->shift, w[d]);
-	*(pm_simd_int_at *)at = (e.cell[0] + e.cell[1] * (dim > 1 ? row : 0) + e.cell[2] * (dim > 2 ? plane : 0)) * each;
-	PM_SIMD_UNROLL
-	for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-		lot->at[l] = (size_t)(uint32_t)at[l];
+		from[d] = distance[d] - t->shift;
+	weights_of(dim, t->kernel, width, degree, from, w);
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width; k++)
-		pm_simd_store(lot->x + k * PM_SIMD_WIDTH, w[0][k]);
-	for (int z = 0; z < (dim > 2 ? width : 1); z++) {
-		pm_simd f = dim > 2 ? w[2][z] : pm_simd_all(1);
-		f = strength ? *strength * f : f;
-		for (int y = 0; y < (dim > 1 ? width : 1); y++)
-			pm_simd_store(lot->f + (z * width + y) * PM_SIMD_WIDTH, dim > 1 ? f * w[1][y] : f);
+		x[k] = w[0][k];
+	for (int z = 0; z < planes_of(dim, width); z++) {
+		pm_simd first = dim > 2 ? w[2][z] : pm_simd_all(1);
+		first = strength ? *strength * first : first;
+		PM_SIMD_UNROLL
+		for (int y = 0; y < most; y++)
+			if (y < rows_of(dim, width))
+				f[z * width + y] = dim > 1 ? first * w[1][y] : first;
 	}
+}
+
+/* Their first points. */
+PM_SIMD_INLINE pm_simd_int first_of(int dim, const struct eight *e)
+{
+	const int row = pm_block_row[dim], plane = row * pm_block_rows[dim];
+	pm_simd_int first = e->cell[0];
+	if (dim > 1)
+		first += e->cell[1] * row;
+	if (dim > 2)
+		first += e->cell[2] * plane;
+	return first;
+}
+/* Leaves them in memory. */
+PM_SIMD_INLINE void put_lot(int dim, int width, pm_simd_int at, const pm_simd *x, const pm_simd *f, struct lot *lot)
+{
+	*(pm_simd_int_at *)lot->at = at;
+	PM_SIMD_UNROLL
+	for (int k = 0; k < width; k++)
+		pm_simd_store(lot->x + k * PM_SIMD_WIDTH, x[k]);
+	for (int z = 0; z < planes_of(dim, width); z++)
+		PM_SIMD_UNROLL
+		for (int y = 0; y < most; y++)
+			if (y < rows_of(dim, width))
+				pm_simd_store(lot->f + (z * width + y) * PM_SIMD_WIDTH, f[z * width + y]);
+}
+
+/* Those from a lane on, as the first ones; only m of them count. */
+PM_SIMD_INLINE void factors_from(int dim, int width, const struct lot *lot, size_t from, size_t m, pm_simd *x, pm_simd *f)
+{
+	PM_SIMD_UNROLL
+	for (int k = 0; k < width; k++)
+		x[k] = pm_simd_load_any(lot->x + (size_t)k * PM_SIMD_WIDTH + from);
+	for (int z = 0; z < planes_of(dim, width); z++)
+		PM_SIMD_UNROLL
+		for (int y = 0; y < most; y++)
+			if (y < rows_of(dim, width))
+				f[z * width + y] = pm_simd_between(0, m, pm_simd_load_any(lot->f + (size_t)(z * width + y) * PM_SIMD_WIDTH + from),
+					pm_simd_all(0));
 }
 
 /* The weights along x of every particle side by side. */
@@ -128,30 +167,78 @@ PM_SIMD_INLINE void points_add(int n, pm_simd4_at a, const struct points *x, dou
 		*(pm_simd4_at *)(y + 4) += x->four[1] * a;
 }
 
-PM_SIMD_INLINE void spread(int dim, int width, int degree, const struct pm_tile *t)
+/* The first m particles of a lot one by one. */
+PM_SIMD_INLINE void spread_apart(int dim, int width, const struct lot *lot, size_t m, double *block)
 {
 	const int n = points_many(width), across = pm_block_row[dim], plane = across * pm_block_rows[dim];
-	struct lot lot;
-	double row[PM_SIMD_WIDTH][most] __attribute__((aligned(64))), *block = t->block;
-	for (size_t i = 0; i < t->count; i += PM_SIMD_WIDTH) {
-		const size_t m = t->count - i < PM_SIMD_WIDTH ? t->count - i : PM_SIMD_WIDTH;
-		size_t index[PM_SIMD_WIDTH];
-		pm_simd strength;
-		for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
-			index[l] = i + (l < m ? l : 0);
-			strength[l] = t->records[index[l] * (size_t)t->stride + (size_t)t->value];
+	double row[PM_SIMD_WIDTH][most] __attribute__((aligned(64)));
+	rows_of_lot(width, lot, row);
+	for (size_t l = 0; l < m; l++) {
+		const struct points x = points_of(n, row[l]);
+		double *to = block + (size_t)(uint32_t)lot->at[l];
+		for (int z = 0; z < planes_of(dim, width); z++)
+			for (int y = 0; y < rows_of(dim, width); y++) {
+				const double f = lot->f[(size_t)(z * width + y) * PM_SIMD_WIDTH + l];
+				points_add(n, factor_of(width <= 4, f), &x, to + z * plane + y * across);
+			}
+	}
+}
+
+/* The first m of a lot; not inlined: it is the same whatever the degree. */
+PM_SIMD_INLINE void spread_some(int dim, int width, const struct lot *lot, size_t m, double *block)
+{
+	const struct runs r = runs_of(lot, m);
+	if (r.n > FEW_RUNS) {
+		spread_apart(dim, width, lot, m, block);
+		return;
+	}
+	for (int i = 0; i < r.n; i++) {
+		pm_simd x[most], f[most * most];
+		factors_from(dim, width, lot, r.at[i], r.at[i + 1] - r.at[i], x, f);
+		spread_neighbours(dim, width, x, f, block + lot->at[r.at[i]]);
+	}
+}
+typedef void some_spread(const struct lot *lot, size_t m, double *block);
+
+/* Eight records, or particles straight from the stream where there is a batch; *strength: of a spread, of which q are those of the batch. */
+PM_SIMD_INLINE struct eight find(int dim, const struct pm_tile *t, const struct pm_tile_batch *b, size_t i, size_t m, const double *q, pm_simd *strength)
+{
+	const double *record[PM_SIMD_WIDTH];
+	pm_simd unused;
+	if (b && strength) {
+		if (m == PM_SIMD_WIDTH)
+			*strength = pm_simd_load_any(q + i);
+		else
+			memcpy(strength, q + i, m * sizeof *q);
+		pm_tile_batch_fetch(b, b->values, q, i);
+	}
+	if (b)
+		return find_eight_of(dim, t, b, i);
+	PM_SIMD_UNROLL
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
+		record[l] = t->records + (i + (l < m ? l : 0)) * (size_t)t->stride;
+		if (strength)
+			(*strength)[l] = record[l][t->value];
+	}
+	return find_eight_at(t, record, &unused);
+}
+
+PM_SIMD_INLINE void spread(int dim, int width, int degree, some_spread *some, const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	struct lot lot = {.x = {0}};
+	const size_t count = b ? b->m : t->count;
+	for (size_t i = 0; i < count; i += PM_SIMD_WIDTH) {
+		const size_t m = count - i < PM_SIMD_WIDTH ? count - i : PM_SIMD_WIDTH;
+		pm_simd x[most], f[most * most], strength = {0};
+		const struct eight e = find(dim, t, b, i, m, q, &strength);
+		const pm_simd_int at = first_of(dim, &e);
+		find_factors(dim, width, degree, t, e.distance, &strength, x, f);
+		if (m == PM_SIMD_WIDTH && are_neighbours(at)) {
+			spread_neighbours(dim, width, x, f, t->block + at[0]);
+			continue;
 		}
-		find_lot(dim, width, degree, t, index, 1, &strength, &lot);
-		rows_of_lot(width, &lot, row);
-		for (size_t l = 0; l < m; l++) {
-			const struct points x = points_of(n, row[l]);
-			double *to = block + lot.at[l];
-			for (int z = 0; z < (dim > 2 ? width : 1); z++)
-				for (int y = 0; y < (dim > 1 ? width : 1); y++) {
-					const double f = lot.f[(size_t)(z * width + y) * PM_SIMD_WIDTH + l];
-					points_add(n, factor_of(width <= 4, f), &x, to + z * plane + y * across);
-				}
-		}
+		put_lot(dim, width, at, x, f, &lot);
+		some(&lot, m, t->block);
 	}
 }
 
@@ -166,12 +253,12 @@ PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const
 	PM_SIMD_UNROLL
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
 		sum[l] = (struct points){.two = {0}};
-	for (int z = 0; z < (dim > 2 ? width : 1); z++)
+	for (int z = 0; z < planes_of(dim, width); z++)
 		for (int y = 0; y < rows; y++) {
 			PM_SIMD_UNROLL
 			for (int l = 0; l < PM_SIMD_WIDTH; l++) {
 				const double f = lot->f[(z * width + y) * PM_SIMD_WIDTH + l];
-				points_more(n, factor_of(held, f), block + lot->at[l] + z * plane + y * row, &sum[l]);
+				points_more(n, factor_of(held, f), block + (size_t)(uint32_t)lot->at[l] + z * plane + y * row, &sum[l]);
 			}
 		}
 	PM_SIMD_UNROLL
@@ -190,10 +277,26 @@ PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const
 	return value;
 }
 
+/* Components at the first m, by runs of neighbours where there are few; not inlined. */
+PM_SIMD_INLINE void gather_some(int dim, int width, const struct lot *lot, size_t m, int components, const double *block, double value[][2 * PM_SIMD_WIDTH])
+{
+	const struct runs r = runs_of(lot, m);
+	for (int c = 0; c < components; c++, block += PM_BLOCK_MOST) {
+		if (r.n > FEW_RUNS)
+			pm_simd_store_any(value[c], value_of(dim, width, lot, block));
+		for (int i = 0; i < r.n && r.n <= FEW_RUNS; i++) {
+			pm_simd x[most], f[most * most];
+			factors_from(dim, width, lot, r.at[i], PM_SIMD_WIDTH, x, f);
+			pm_simd_store_any(value[c] + r.at[i], gather_neighbours(dim, width, x, f, block + lot->at[r.at[i]]));
+		}
+	}
+}
+typedef void some_gather(const struct lot *lot, size_t m, int components, const double *block, double value[][2 * PM_SIMD_WIDTH]);
+
 /* All components of a node: at particle l. */
 PM_SIMD_INLINE pm_simd4_at node_value(int width, const struct lot *lot, size_t l, const double *nodes)
 {
-	const double *from = nodes + lot->at[l];
+	const double *from = nodes + (size_t)(uint32_t)lot->at[l];
 	pm_simd4_at sum[most], value = {0};
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width; k++)
@@ -218,7 +321,7 @@ PM_SIMD_INLINE pm_simd4_at node_value(int width, const struct lot *lot, size_t l
 PM_SIMD_INLINE pm_simd4_at pair_value(int width, const struct lot *lot, size_t l, const double *nodes)
 {
 	const int pairs = width / 2;
-	const double *from = nodes + lot->at[l];
+	const double *from = nodes + (size_t)(uint32_t)lot->at[l];
 	pm_simd8_at sum[most / 2] = {{0}};
 	pm_simd4_at last = {0}, value = {0};
 	for (int z = 0; z < width; z++) {
@@ -253,30 +356,71 @@ PM_SIMD_INLINE void put(double *result, int n, int room, pm_simd4_at value)
 		result[c] = value[c];
 }
 
-PM_SIMD_INLINE void gather(int dim, int width, int degree, bool woven, const struct pm_tile *t)
+/* Values of n particles: straight to the stream, or to the results. */
+PM_SIMD_INLINE void leave(const struct pm_tile *t, const struct pm_tile_batch *b, const struct delivery *to, size_t i, size_t n, int c, pm_simd value,
+	pm_simd *nothing)
 {
-	const bool sorts = woven && width > 3; /* of one component, or few points, sorting costs more than it saves */
+	if (b)
+		deliver_eight(value, n, &to[c], b->p + i, nothing);
+	for (size_t l = 0; l < n && !b; l++)
+		t->results[(i + l) * (size_t)t->to + (size_t)c] = value[l];
+}
+
+/* From records, or a batch and with r. True if what is left is finite. */
+PM_SIMD_INLINE bool gather(int dim, int width, int degree, some_gather *some, const struct pm_tile *t, const struct pm_tile_batch *b,
+	const struct pm_tile_results *r)
+{
+	struct delivery to[PM_COMPONENTS];
+	struct lot lot = {.x = {0}};
+	pm_simd nothing = {0};
+	double value[PM_COMPONENTS][2 * PM_SIMD_WIDTH];
+	const size_t count = b ? b->m : t->count;
+	for (int c = 0; c < t->components && b; c++)
+		to[c] = delivery_of(r, c);
+	for (size_t i = 0; i < count; i += PM_SIMD_WIDTH) {
+		const size_t n = count - i < PM_SIMD_WIDTH ? count - i : PM_SIMD_WIDTH;
+		const struct eight e = find(dim, t, b, i, n, NULL, NULL);
+		const pm_simd_int at = first_of(dim, &e);
+		pm_simd x[most], f[most * most];
+		find_factors(dim, width, degree, t, e.distance, NULL, x, f);
+		if (n == PM_SIMD_WIDTH && are_neighbours(at)) {
+			for (int c = 0; c < t->components; c++)
+				leave(t, b, to, i, n, c, gather_neighbours(dim, width, x, f, t->block + (size_t)c * PM_BLOCK_MOST + at[0]), &nothing);
+			continue;
+		}
+		put_lot(dim, width, at, x, f, &lot);
+		some(&lot, n, t->components, t->block, value);
+		for (int c = 0; c < t->components; c++)
+			leave(t, b, to, i, n, c, pm_simd_load_any(value[c]), &nothing);
+	}
+	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
+
+/* All components of a node of a woven block at once. */
+PM_SIMD_INLINE void woven(int width, int degree, const struct pm_tile *t)
+{
 	uint16_t order[PM_TILE_CELLS];
 	struct lot lot;
 	for (size_t from = 0; from < t->count; from += PM_TILE_CELLS) {
 		const size_t m = t->count - from < PM_TILE_CELLS ? t->count - from : PM_TILE_CELLS;
-		const bool sorted = sorts && m >= 128;
+		const bool sorted = width > 3 && m >= 128; /* of few points, sorting costs more than it saves */
 		if (sorted)
 			pm_tile_order_cells(t, from, m, order);
 		for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 			const size_t n = m - i < PM_SIMD_WIDTH ? m - i : PM_SIMD_WIDTH;
+			const double *record[PM_SIMD_WIDTH];
 			size_t index[PM_SIMD_WIDTH];
-			for (size_t l = 0; l < PM_SIMD_WIDTH; l++) /* the last ones may be fewer: the first of them stands in for the rest */
+			pm_simd x[most], f[most * most], unused;
+			for (size_t l = 0; l < PM_SIMD_WIDTH; l++) { /* the last ones may be fewer: the first of them stands in for the rest */
 				index[l] = from + (sorted ? order[i + (l < n ? l : 0)] : i + (l < n ? l : 0));
-			find_lot(dim, width, degree, t, index, woven ? 4 : 1, NULL, &lot);
-			for (int c = 0; c < t->components && !woven; c++) {
-				const pm_simd value = value_of(dim, width, &lot, t->block + (size_t)c * PM_BLOCK_MOST);
-				for (size_t l = 0; l < n; l++)
-					t->results[index[l] * (size_t)t->to + (size_t)c] = value[l];
+				record[l] = t->records + index[l] * (size_t)t->stride;
 			}
+			const struct eight e = find_eight_at(t, record, &unused);
+			find_factors(3, width, degree, t, e.distance, NULL, x, f);
+			put_lot(3, width, first_of(3, &e) * 4, x, f, &lot);
 			const int group = pm_vector_group(t->components);
 			const double *nodes = t->nodes;
-			for (int c = 0; c < t->components && woven; c += group, nodes += PM_VECTOR_NODES)
+			for (int c = 0; c < t->components; c += group, nodes += PM_VECTOR_NODES)
 				for (size_t l = 0; l < n; l++)
 					put(t->results + index[l] * (size_t)t->to + c, t->components - c < group ? t->components - c : group, t->to - c,
 						(int)PM_SIMD_PART == 8 && width > 3 ? pair_value(width, &lot, l, nodes) : node_value(width, &lot, l, nodes));
@@ -284,11 +428,30 @@ PM_SIMD_INLINE void gather(int dim, int width, int degree, bool woven, const str
 	}
 }
 
+#define SOME(dim, width) \
+	static __attribute__((noinline)) void spread_some_##dim##_##width(const struct lot *lot, size_t m, double *block) \
+	{ \
+		spread_some(dim, width, lot, m, block); \
+	} \
+	static __attribute__((noinline)) void gather_some_##dim##_##width(const struct lot *lot, size_t m, int components, const double *block, \
+		double value[][2 * PM_SIMD_WIDTH]) \
+	{ \
+		gather_some(dim, width, lot, m, components, block, value); \
+	}
 #define LOOPS(dim, width, name, degree) \
-	static void spread_##name##_##dim##_##width(const struct pm_tile *t) { spread(dim, width, degree, t); } \
-	static void gather_##name##_##dim##_##width(const struct pm_tile *t) { gather(dim, width, degree, false, t); }
-#define WOVEN(width, name, degree) static void woven_##name##_##width(const struct pm_tile *t) { gather(3, width, degree, true, t); }
+	static void spread_batch_##name##_##dim##_##width(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q) \
+	{ \
+		spread(dim, width, degree, spread_some_##dim##_##width, t, b, q); \
+	} \
+	static bool gather_batch_##name##_##dim##_##width(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r) \
+	{ \
+		return gather(dim, width, degree, gather_some_##dim##_##width, t, b, r); \
+	} \
+	static void spread_##name##_##dim##_##width(const struct pm_tile *t) { spread_batch_##name##_##dim##_##width(t, NULL, NULL); } \
+	static void gather_##name##_##dim##_##width(const struct pm_tile *t) { gather_batch_##name##_##dim##_##width(t, NULL, NULL); }
+#define WOVEN(width, name, degree) static void woven_##name##_##width(const struct pm_tile *t) { woven(width, degree, t); }
 #define DIMS(width) \
+	SOME(1, width) SOME(2, width) SOME(3, width) \
 	LOOPS(1, width, spline, width - 1) LOOPS(2, width, spline, width - 1) LOOPS(3, width, spline, width - 1) WOVEN(width, spline, width - 1) \
 	LOOPS(1, width, any, t->kernel->degree) LOOPS(2, width, any, t->kernel->degree) LOOPS(3, width, any, t->kernel->degree) \
 	WOVEN(width, any, t->kernel->degree)
@@ -302,6 +465,8 @@ DIMS(8)
 #define TABLE(name) {ROW(name##_1), ROW(name##_2), ROW(name##_3)}
 static pm_tile_loop *const spreads[2][3][6] = {TABLE(spread_spline), TABLE(spread_any)};
 static pm_tile_loop *const gathers[2][3][6] = {TABLE(gather_spline), TABLE(gather_any)};
+static pm_tile_spread_loop *const spread_batches[2][3][6] = {TABLE(spread_batch_spline), TABLE(spread_batch_any)};
+static pm_tile_gather_loop *const gather_batches[2][3][6] = {TABLE(gather_batch_spline), TABLE(gather_batch_any)};
 static pm_tile_loop *const wovens[2][6] = {ROW(woven_spline), ROW(woven_any)};
 
 static bool is_wide(const struct pm_kernel *k) { return PM_TILE_CIC_EIGHT && k->width >= 3 && k->width <= most && !k->star; }
@@ -314,6 +479,16 @@ pm_tile_loop *pm_tile_spread_wide(int dim, const struct pm_kernel *k)
 pm_tile_loop *pm_tile_gather_wide(int dim, const struct pm_kernel *k)
 {
 	return is_wide(k) ? gathers[k->degree != k->width - 1][dim - 1][k->width - 3] : NULL;
+}
+
+pm_tile_spread_loop *pm_tile_spread_wide_batch(int dim, const struct pm_kernel *k)
+{
+	return is_wide(k) ? spread_batches[k->degree != k->width - 1][dim - 1][k->width - 3] : NULL;
+}
+
+pm_tile_gather_loop *pm_tile_gather_wide_batch(int dim, const struct pm_kernel *k)
+{
+	return is_wide(k) ? gather_batches[k->degree != k->width - 1][dim - 1][k->width - 3] : NULL;
 }
 
 pm_tile_loop *pm_tile_gather_woven(const struct pm_kernel *k) { return is_wide(k) ? wovens[k->degree != k->width - 1][k->width - 3] : NULL; }

@@ -10,6 +10,7 @@
 #include "transfer/tile-plane.h"
 #include "transfer/tile-stretches.h"
 #include "transfer/tile-vector.h"
+#include "transfer/tile-wide.h"
 #include "transfer/transfer-pass.h"
 
 struct pm_tile pm_pass_tile(const struct pm_pass *w, const struct pm_tile_job *j, double *block)
@@ -32,24 +33,34 @@ static void cells_of(const struct pm_pass *w, const struct pm_tile_job *j, size_
 		cells[d] = pm_tile_slots(&w->p, j->tile, d, &first) - (size_t)(w->t->kernel->width - 1);
 }
 
+/* The loop over particles straight from the stream; NULL: there is none. */
+static pm_tile_spread_loop *spread_straight(int dim, const struct pm_kernel *k, bool squares)
+{
+	if (squares)
+		return !PM_TILE_CIC_EIGHT ? NULL : dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread;
+	return pm_tile_has_plane(dim, k) ? pm_tile_plane_spread : pm_tile_spread_wide_batch(dim, k);
+}
+
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
 	struct pm_tile t = pm_pass_tile(w, j, block);
-	const bool squares = pm_tile_has_squares(w->o->order.dim, w->t->kernel, t.count), plane = pm_tile_has_plane(w->o->order.dim, w->t->kernel);
-	pm_tile_loop *loop = pm_tile_spread(w->o->order.dim, w->t->kernel, squares);
+	const int dim = w->o->order.dim;
+	const bool squares = pm_tile_has_squares(dim, w->t->kernel, t.count);
+	pm_tile_loop *loop = pm_tile_spread(dim, w->t->kernel, squares);
+	pm_tile_spread_loop *straight = w->o->order.floats ? NULL : spread_straight(dim, w->t->kernel, squares);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[3][PM_TILE_ORDER_PACK];
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
-	t.value = w->o->order.dim + value;
+	t.value = dim + value;
 	t.squares = squares ? w->squares + (size_t)omp_get_thread_num() * PM_TILE_SQUARES : NULL;
 	if (t.records)
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		if ((squares || plane) && PM_TILE_CIC_EIGHT && !w->o->order.floats) {
+		if (straight) {
 			pm_tile_batch_take(&batch, p, t.count, few);
-			const double *q = pm_tile_order_take(&w->o->order, p, t.count, &w->o->order.values[value], packed);
-			(plane ? pm_tile_plane_spread : w->o->order.dim == 1 ? pm_tile_line_spread : pm_tile_cic_spread)(&t, &batch, q);
+			batch.values = &w->o->order.values[value];
+			straight(&t, &batch, pm_tile_order_take(&w->o->order, p, t.count, batch.values, packed));
 			continue;
 		}
 		t.records = packed;
@@ -59,7 +70,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	if (squares) {
 		size_t cells[3];
 		cells_of(w, j, cells);
-		if (w->o->order.dim == 1)
+		if (dim == 1)
 			pm_tile_line_fold(&t, cells[0]);
 		else
 			pm_tile_cic_fold(&t, cells);
@@ -150,10 +161,9 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 	return finite;
 }
 
-typedef bool batch_loop(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
-
 /* Of a stream in order, or whose particles have places, straight from it and to it where they stand together; else by way of a batch of doubles. */
-static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j, const struct pm_tile *t, batch_loop *loop, const struct pm_tile_results *r)
+static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j, const struct pm_tile *t, pm_tile_gather_loop *loop,
+	const struct pm_tile_results *r)
 {
 	const struct pm_tile_order *o = &w->o->order;
 	struct pm_tile_batch batch = pm_tile_batch(o);
@@ -252,8 +262,10 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 	const bool squares = pm_tile_has_squares(w->o->order.dim, w->t->kernel, t.count);
 	if (squares && w->o->order.dim == 1 && PM_TILE_CIC_EIGHT && !t.records && !w->o->order.floats)
 		return gather_batches(w, j, &t, pm_tile_line_gather, r);
-	if (pm_tile_has_plane(w->o->order.dim, w->t->kernel) && !t.records && !w->o->order.floats)
-		return gather_batches(w, j, &t, pm_tile_plane_gather, r);
+	pm_tile_gather_loop *straight = pm_tile_has_plane(w->o->order.dim, w->t->kernel) ? pm_tile_plane_gather
+											: pm_tile_gather_wide_batch(w->o->order.dim, w->t->kernel);
+	if (straight && !t.records && !w->o->order.floats)
+		return gather_batches(w, j, &t, straight, r);
 	const bool lanes = PM_TILE_CIC_SQUARES || (PM_TILE_CIC_EIGHT && (t.components == 1 || !t.records)); /* of records, one is worth turning four */
 	if (lanes && squares && w->o->order.dim == 3)
 		return gather_cic(w, j, t, r);

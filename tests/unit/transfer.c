@@ -385,6 +385,53 @@ static void check_nearly(int dim, const size_t cells[3], size_t n, const char *k
 	problem_free(&b);
 }
 
+/* Particles of a lattice that a smooth flow has moved, a cell one after the other in most rows: straight from the stream, by their places, and in records.
+ * The bytes of particles taken one by one, since behind each there is one without strength two cells on. */
+static void check_neighbours(int dim, const size_t cells[3], const char *kernel)
+{
+	enum { together = 5 };
+	const struct pm_grid g = grid_of(dim, cells, (const int[]){0, 0, 0});
+	const size_t n = pm_grid_size(&g);
+	bool spreads = true, gathers = true;
+	for (int way = 0; way < 3; way++) {
+		struct problem a = problem_new(g, pm_kernel_find(kernel), dim, n), b = problem_new(g, a.t.kernel, dim, 2 * n);
+		struct pm_strays strays;
+		for (size_t k = 0; k < n; k++) { /* last: pieces of the two halves in turn */
+			const size_t half = n / 2, i = k / together, p = way < 2 || k >= half / together * together * 2 ? k
+													   : i / 2 * together + k % together + i % 2 * half;
+			const size_t at[3] = {p % cells[0], p / cells[0] % cells[1], p / cells[0] / cells[1]};
+			const double phase = 0.17 * (double)at[0] + 0.3 * (double)at[1] + 0.2 * (double)at[2];
+			for (int d = 0; d < dim; d++)
+				a.x[d][k] = g.lo[d] + ((double)at[d] + 0.9 * sin(phase + d)) * g.h[d];
+		}
+		if (!way)
+			put_in_order(&a);
+		for (int d = 0; d < dim; d++) {
+			fill_mesh(&a, d, a.mesh[d]);
+			a.t.set[d] = b.t.set[d] = true;
+			for (size_t k = 0; k < n; k++) {
+				b.x[d][2 * k] = a.x[d][k], b.x[d][2 * k + 1] = a.x[d][k] + (d ? 0 : 2 * g.h[0]);
+				b.q[d][2 * k] = a.q[d][k], b.q[d][2 * k + 1] = 0;
+			}
+		}
+		pm_gather(&a.t, n, in(a.x), in(a.mesh), NULL, a.out, &strays);
+		pm_gather(&b.t, 2 * n, in(b.x), in(a.mesh), NULL, b.out, &strays);
+		for (int d = 0; d < dim; d++) {
+			for (size_t k = 0; k < n; k++)
+				gathers = gathers && a.out[d][k] == b.out[d][2 * k];
+			memset(a.mesh[d], 0, a.points * sizeof(double));
+		}
+		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
+		pm_spread(&b.t, 2 * n, in(b.x), in(b.q), b.mesh, &strays);
+		for (int d = 0; d < dim; d++)
+			spreads = spreads && !memcmp(a.mesh[d], b.mesh[d], a.points * sizeof(double));
+		problem_free(&a);
+		problem_free(&b);
+	}
+	check(spreads, "%d-D, %s: particles in neighbouring cells spread the bytes that they spread one by one", dim, kernel);
+	check(gathers, "%d-D, %s: particles in neighbouring cells gather the bytes that they gather one by one", dim, kernel);
+}
+
 /* Several components at once, in order and from any order: the bytes of one after the other. */
 static void check_components(const size_t cells[3], size_t n, const char *kernel, int components)
 {
@@ -1028,6 +1075,12 @@ int main(void)
 	for (int k = 0; k < 5; k++)
 		check_components((const size_t[]){35, 20, 33}, 9001, (const char *const[]){"cic", "tsc", "pcs", "m6prime", "lambda-6-4"}[k],
 			(const int[]){4, 3, 5, 6, 4}[k]);
+	for (int k = 0; k < 5; k++) {
+		const char *kernel = (const char *const[]){"tsc", "pcs", "m6prime", "lambda-6-4", "m4prime"}[k];
+		check_neighbours(1, (const size_t[]){9001, 1, 1}, kernel);
+		check_neighbours(2, (const size_t[]){130, 67, 1}, kernel);
+		check_neighbours(3, (const size_t[]){35, 20, 17}, kernel);
+	}
 	check_nearly(1, (const size_t[]){9001, 1, 1}, 20003, "cic");
 	check_nearly(2, (const size_t[]){130, 67, 1}, 9001, "tsc");
 	check_nearly(2, (const size_t[]){130, 67, 1}, 9001, "cic");
