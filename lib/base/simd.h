@@ -402,18 +402,18 @@ PM_SIMD_INLINE pm_simd_int pm_simd_int_lanes(void)
 #endif
 }
 
-/* True if all lanes are n. */
-PM_SIMD_INLINE bool pm_simd_int_all(pm_simd_int v, int32_t n)
+/* Bit l: lane l is not n. */
+PM_SIMD_INLINE unsigned pm_simd_int_others(pm_simd_int v, int32_t n)
 {
 #ifdef __AVX512VL__
-	return !_mm256_cmpneq_epi32_mask((__m256i)v, _mm256_set1_epi32(n));
+	return _mm256_cmpneq_epi32_mask((__m256i)v, _mm256_set1_epi32(n));
 #elif defined PM_SIMD_FOUR && defined __SSE2__
-	return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)v, _mm_set1_epi32(n))) == 0xffff;
+	return 15u ^ (unsigned)_mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32((__m128i)v, _mm_set1_epi32(n))));
 #else
-	bool all = true;
+	unsigned others = 0;
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		all &= v[l] == n;
-	return all;
+		others |= (unsigned)(v[l] != n) << l;
+	return others;
 #endif
 }
 

@@ -31,23 +31,22 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 	enum { pack = PM_TILE_ORDER_PACK };
 	double values[6 * pack], few[3][pack], room[3][pack], *v[3];
 	const double *x[3], *all[6];
-	const bool together = !o->place || pm_tile_order_together(o, p, m);
+	const struct pm_tile_runs *runs = o->runs.run ? &o->runs : NULL;
+	const bool together = !runs || pm_tile_runs_together(runs, p, m);
 	const double factor = k->left->factor;
-	const size_t at = o->place ? o->place[p] : p;
+	const size_t at = runs ? pm_tile_runs_at(runs, p) : p;
 	const int dim = o->dim;
-	struct pm_tile_runs runs;
 	for (int d = 0; d < dim; d++)
 		all[d] = o->x[d].doubles, x[d] = together ? all[d] + at : room[d];
 	for (int c = 0; c < 3; c++)
 		all[dim + c] = k->v[c], v[c] = together ? k->v[c] + at : few[c];
-	if (o->place)
-		pm_tile_order_fetch(o, p + m, pack, dim + 3, all);
+	if (runs)
+		pm_tile_runs_fetch(runs, p + m, pack, dim + 3, all);
 	if (!together) {
 		double *to[6] = {NULL};
 		for (int c = 0; c < dim + 3; c++)
 			to[c] = c < dim ? room[c] : few[c - dim];
-		pm_tile_order_runs(o, p, m, &runs);
-		pm_tile_runs_take(o, p, &runs, dim + 3, all, to);
+		pm_tile_runs_take(runs, p, m, dim + 3, all, to);
 	}
 	for (int d = 0; d < dim; d++)
 		pm_axis_locate_many(&o->axes[d], m, x[d], u[d]);
@@ -65,7 +64,7 @@ static void make(void *data, const struct pm_tile_order *o, const struct pm_tile
 	for (int d = 0; d < dim; d++)
 		pm_tile_ways(o->dt, o->axes[d].h, m, x[d], v[d], way[d]);
 	if (!together)
-		pm_tile_runs_put(o, p, &runs, 3, (const double *const[]){few[0], few[1], few[2]}, k->v);
+		pm_tile_runs_put(runs, p, m, 3, (const double *const[]){few[0], few[1], few[2]}, k->v);
 }
 
 /* Does everything allow it? */

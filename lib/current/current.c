@@ -242,7 +242,7 @@ static int deposit_particles(const struct pm_current *c, const struct pm_tile_pa
 		status = -PM_DATA;
 	}
 	if (far)
-		*far = !status && !order.place && pm_tile_order_spent(&order);
+		*far = !status && !order.runs.run && pm_tile_order_spent(&order);
 	if (!status && !(far && *far))
 		status = deposit_order(&s, &order, p->n, mesh);
 	pm_tile_order_free(&order);

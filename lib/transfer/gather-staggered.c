@@ -76,7 +76,7 @@ static bool put_arrays(const struct staggered *s, size_t p, size_t m, const doub
 	const struct pm_tile_order *o = s->o;
 	const int components = s->t->components;
 	if (!s->few && !s->results)
-		return pm_tile_order_unpack_arrays(p, o->place ? o->place + p : NULL, m, values, components, &s->to);
+		return pm_tile_order_deliver_arrays(o, p, m, values, components, &s->to);
 	double results[PM_TILE_ORDER_PACK * PM_COMPONENTS], *to = s->few ? results : s->results + p * (size_t)components;
 	for (size_t i = 0; i < m; i++)
 		for (int c = 0; c < components; c++)

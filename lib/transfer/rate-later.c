@@ -134,7 +134,7 @@ static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *s
 		yes = t->set[c] && a->times[c].doubles == a->times[0].doubles && !a->times[c].floats &&
 			!memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]);
 	const struct pm_order_cache *o = yes ? order_of(t, t->kept, x) : NULL;
-	return o && (!o->order.place || a->n >= 4 * pm_grid_size(&t->grid)); /* few that stand apart are put together at the cost of what the pass saves */
+	return o && (!o->order.runs.run || a->n >= 4 * pm_grid_size(&t->grid)); /* few that stand apart are put together at the cost of what the pass saves */
 }
 
 int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left)
@@ -181,22 +181,21 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 {
 	enum { pack = PM_TILE_ORDER_PACK, line = 8 };
 	const struct passing *k = data;
-	const bool together = !o->place || pm_tile_order_together(o, p, m), known = places && !together;
-	const size_t at = o->place ? o->place[p] : p;
+	const struct pm_tile_runs *runs = o->runs.run ? &o->runs : NULL;
+	const bool together = !runs || pm_tile_runs_together(runs, p, m), known = places && !together;
+	const size_t at = runs ? pm_tile_runs_at(runs, p) : p;
 	const int dim = k->dim, all = dim + k->components;
 	double few[6][pack], ratio[pack], *y[6] = {NULL}, *from[6];
 	const double *read[6];
-	struct pm_tile_runs runs;
 	for (int c = 0; c < all; c++) {
 		read[c] = from[c] = c < dim ? k->x[c] : k->v[c - dim];
 		y[c] = together ? from[c] + at : c < dim && known ? places[c] : few[c];
 	}
-	if (o->place)
-		pm_tile_order_fetch(o, p + m, pack, all, read);
+	if (runs)
+		pm_tile_runs_fetch(runs, p + m, pack, all, read);
 	if (!together) {
 		const int first = known ? dim : 0;
-		pm_tile_order_runs(o, p, m, &runs);
-		pm_tile_runs_take(o, p, &runs, all - first, read + first, y + first);
+		pm_tile_runs_take(runs, p, m, all - first, read + first, y + first);
 	}
 	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
 	for (size_t i = 0; i < m && factor && together; i += line)
@@ -206,7 +205,7 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 			rate[c][i] *= factor[i];
 	k->few(k->data, m, y, y + dim, (const double *const *)rate);
 	if (!together)
-		pm_tile_runs_put(o, p, &runs, all, (const double *const *)y, from);
+		pm_tile_runs_put(runs, p, m, all, (const double *const *)y, from);
 }
 
 static bool is_held(const struct pm_frame *f, const char *set, const struct pm_field *held)

@@ -73,7 +73,7 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 			memcpy(few, q + i, (m - i) * sizeof *q);
 			strength = pm_simd_load_any(few);
 		}
-		pm_tile_batch_fetch(batch, batch->values, q, i);
+		__builtin_prefetch(batch->next_value + i, 0, 2);
 		share(&e, strength, i, &s);
 	}
 	add_shares(&s, m, t->squares);

@@ -15,32 +15,15 @@ struct pm_tile_batch {
 	const struct pm_tile_order *order;
 	struct pm_axis_lanes lanes[3];
 	size_t p, m;
-	const double *x[3]; /* their positions */
-	const struct pm_column *values; /* spread: of the stream, what is added */
-	const uint32_t *next; /* where they are copies, [PM_TILE_ORDER_PACK] the places of the next ones; NULL: not known */
+	const double *x[3];    /* their positions */
+	const double *next[3], *next_value; /* those of a later batch, and the strengths of a spread, which the loops fetch */
 };
-/* The line of the cache that a loop over the batch needs later, as it gets to i: of values[m] from a column of the stream. */
-static inline void pm_tile_batch_fetch(const struct pm_tile_batch *b, const struct pm_column *from, const double *values, size_t i)
-{
-	if (b->next)
-		__builtin_prefetch(from->doubles + b->next[i], 0, 2);
-	else
-		pm_tile_fetch_ahead(values + i);
-}
 static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)
 {
 	struct pm_tile_batch b = {.order = o};
 	for (int d = 0; d < o->dim && o->axes; d++)
 		b.lanes[d] = pm_axis_lanes(&o->axes[d]);
 	return b;
-}
-/* Positions of the stream, or, where these are floats or stand apart, copied to few; then m <= PM_TILE_ORDER_PACK. */
-static inline void pm_tile_batch_take(struct pm_tile_batch *b, size_t p, size_t m, double few[3][PM_TILE_ORDER_PACK])
-{
-	b->p = p, b->m = m;
-	b->next = few && b->order->place && !b->order->columns && b->order->n - p >= m + PM_TILE_ORDER_PACK ? b->order->place + p + m : NULL;
-	for (int d = 0; d < b->order->dim; d++)
-		b->x[d] = few ? pm_tile_order_take(b->order, p, m, &b->order->x[d], few[d]) : pm_column_take(&b->order->x[d], p, m, NULL);
 }
 /* Loops over a batch: to a tile with strengths q[m]; from it, true if what is left is finite. */
 typedef void pm_tile_spread_loop(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q);

@@ -81,7 +81,7 @@ PM_SIMD_INLINE struct eight find_eight_of(int dim, const struct pm_tile *t, cons
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++) {
 		const double *x = b->x[d] + i;
-		pm_tile_batch_fetch(b, &b->order->x[d], b->x[d], i);
+		__builtin_prefetch(b->next[d] + i, 0, 2);
 		double few[PM_SIMD_WIDTH];
 		unsigned outside;
 		if (i + PM_SIMD_WIDTH > b->m) {

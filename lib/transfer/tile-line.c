@@ -82,7 +82,7 @@ PM_SIMD_INLINE void find_all(bool simple, bool near, const struct line *l, size_
 }
 
 /* Whether the particles of a vector are all in one cell. */
-PM_SIMD_INLINE bool are_together(const int32_t *at) { return pm_simd_int_all(*(const pm_simd_int_at *)at, at[0]); }
+PM_SIMD_INLINE bool are_together(const int32_t *at) { return !pm_simd_int_others(*(const pm_simd_int_at *)at, at[0]); }
 
 /* The first n of a vector of particles. */
 PM_SIMD_INLINE void add_pairs(size_t n, const int32_t *at, pm_simd x, pm_simd q, double *corners)

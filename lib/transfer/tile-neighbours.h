@@ -17,7 +17,7 @@ struct lot {
 };
 
 /* Are all particles with these first points in neighbouring cells? */
-PM_SIMD_INLINE bool are_neighbours(pm_simd_int at) { return pm_simd_int_all(at - pm_simd_int_lanes(), at[0]); }
+PM_SIMD_INLINE bool are_neighbours(pm_simd_int at) { return !pm_simd_int_others(at - pm_simd_int_lanes(), at[0]); }
 
 /* What of a lot stands in neighbouring cells: n runs that begin at at[], the last of which ends at at[n]. More than FEW_RUNS: not worth it. */
 enum { FEW_RUNS = 3 };

@@ -6,10 +6,11 @@
 
 #include "transfer/tile-order.h"
 
-enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8 }; /* ahead: the place of a later record is prefetched; line: doubles per cache line */
+/* ahead: the place of a later record is prefetched; line: doubles per cache line; many: a change of tile in fewer particles takes longer than these alone */
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, many = 16 };
 
-static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return o->n / (size_t)o->chunks * (size_t)chunk; }
-static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return chunk == o->chunks - 1 ? o->n : chunk_from(o, chunk + 1); }
+static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk); }
+static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk + 1); }
 
 void pm_tile_ways(double dt, double h, size_t m, const double *restrict x, const double *restrict v, double *restrict length)
 {
@@ -180,19 +181,19 @@ static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
 	return true;
 }
 
-/* Are m particles in one tile? As a rule, where the stream is nearly in order; counters that are raised one by one would wait for each other. */
-static bool in_one(const uint32_t *tile, size_t m)
+/* How many of the m particles behind the one at tile[0] have another tile than the one before. */
+static size_t changes_of(const uint32_t *tile, size_t m)
 {
-	uint32_t differ = 0;
-	for (size_t i = 1; i < m; i++)
-		differ |= tile[i] ^ tile[0];
-	return !differ;
+	uint32_t changes = 0;
+	for (size_t i = 0; i < m; i++)
+		changes += tile[i] != tile[i + 1];
+	return changes;
 }
 
-/* Counts, and keeps the tile of each. */
-static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
+/* Counts, and keeps the tile of each; how often the tile changes. */
+static size_t count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
 {
-	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
+	size_t changed = 0, *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	double u[3][batch];
 	struct pm_axis_lanes lanes[3];
 	for (int d = 0; d < o->dim; d++)
@@ -207,12 +208,14 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 			if (!all)
 				find_strays(o, p, m, u, strays);
 		}
-		if (in_one(o->tile + p, m))
-			count[o->tile[p]] += m;
-		else
-			for (size_t i = 0; i < m; i++)
-				count[o->tile[p + i]]++;
+		const size_t behind = p > chunk_from(o, chunk), changes = changes_of(o->tile + p - behind, m - 1 + behind);
+		changed += changes;
+		for (size_t i = p, end; i < p + m; i = end) { /* a counter that is raised one by one waits for itself */
+			end = changes <= m / many ? pm_tile_other(o->tile, i, p + m) : i + 1;
+			count[o->tile[i]] += end - i;
+		}
 	}
+	return changed;
 }
 
 /* Counts become the first place of each chunk in each tile. Row 0 is that of chunk 0 for good; row c+1 is used up by chunk c and is then
@@ -353,113 +356,22 @@ static void move_floats(struct pm_tile_order *o, int chunk, size_t *cursor)
 	}
 }
 
-/* The places of a chunk's particles; cursor as above. */
-static void place_chunk(struct pm_tile_order *o, int chunk, size_t *cursor)
-{
-	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
-		const size_t m = to - p < batch ? to - p : batch;
-		if (in_one(o->tile + p, m)) {
-			uint32_t *at = o->place + cursor[o->tile[p]];
-			for (size_t i = 0; i < m; i++)
-				at[i] = (uint32_t)(p + i);
-			cursor[o->tile[p]] += m;
-		} else
-			for (size_t i = p; i < p + m; i++)
-				o->place[cursor[o->tile[i]]++] = (uint32_t)i;
-	}
-}
-
-/* m places, which rise. */
-static bool stand_together(const uint32_t *place, size_t m) { return place[m - 1] - place[0] == m - 1; }
-
-bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m) { return stand_together(o->place + p, m); }
-
-enum { run = 8 }; /* places that are looked at together: where the stream is nearly in order most stand so */
-static bool runs(const uint32_t *place, size_t i, size_t m) { return i + run <= m && stand_together(place + i, run); }
-
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few)
 {
-	const uint32_t *place = o->place ? o->place + p : NULL;
-	if (!place || stand_together(place, m) || (!from->doubles && !from->floats))
-		return pm_column_take(from, place ? place[0] : p, m, few);
-	if (from->doubles)
-		for (size_t i = 0; i < m;)
-			if (runs(place, i, m)) {
-				memcpy(few + i, from->doubles + place[i], run * sizeof *few);
-				i += run;
-			} else {
-				few[i] = from->doubles[place[i]];
-				i++;
-			}
-	else
+	const struct pm_tile_runs *r = &o->runs;
+	if (!r->run || (!from->doubles && !from->floats))
+		return pm_column_take(from, p, m, few);
+	if (pm_tile_runs_together(r, p, m))
+		return pm_column_take(from, pm_tile_runs_at(r, p), m, few);
+	if (from->doubles) {
+		pm_tile_runs_take(r, p, m, 1, &from->doubles, &few);
+	} else {
+		uint32_t place[batch];
+		pm_tile_runs_places(r, p, m, place);
 		for (size_t i = 0; i < m; i++)
 			few[i] = pm_column_at(from, place[i]);
+	}
 	return few;
-}
-
-void pm_tile_order_runs(const struct pm_tile_order *o, size_t p, size_t m, struct pm_tile_runs *r)
-{
-	const uint32_t *place = o->place + p;
-	r->n = 1, r->at[0] = 0;
-	for (size_t i = 1; i < m;) {
-		if (i + run <= m && place[i + run - 1] - place[i - 1] == run) {
-			i += run;
-			continue;
-		}
-		for (size_t end = i + run < m ? i + run : m; i < end; i++) {
-			r->at[r->n] = (uint32_t)i;
-			r->n += place[i] - place[i - 1] != 1;
-		}
-	}
-	r->at[r->n] = (uint32_t)m;
-}
-
-/* n numbers; those of the last eight, or four, a second time where n is no multiple. */
-PM_SIMD_INLINE void copy_run(size_t n, const double *from, double *to)
-{
-	if (n >= 8) {
-		for (size_t i = 0; i + 8 < n; i += 8)
-			memcpy(to + i, from + i, 8 * sizeof *to);
-		memcpy(to + n - 8, from + n - 8, 8 * sizeof *to);
-	} else if (n >= 4) {
-		memcpy(to, from, 4 * sizeof *to);
-		memcpy(to + n - 4, from + n - 4, 4 * sizeof *to);
-	} else
-		for (size_t i = 0; i < n; i++)
-			to[i] = from[i];
-}
-
-void pm_tile_runs_take(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[])
-{
-	for (size_t k = 0; k < r->n; k++) {
-		const size_t i = r->at[k], at = o->place[p + i], many = r->at[k + 1] - i;
-		for (int c = 0; c < n; c++)
-			copy_run(many, from[c] + at, to[c] + i);
-	}
-}
-
-void pm_tile_runs_put(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[])
-{
-	for (size_t k = 0; k < r->n; k++) {
-		const size_t i = r->at[k], at = o->place[p + i], many = r->at[k + 1] - i;
-		for (int c = 0; c < n; c++)
-			copy_run(many, from[c] + i, to[c] + at);
-	}
-}
-
-void pm_tile_order_fetch(const struct pm_tile_order *o, size_t p, size_t m, int n, const double *const from[])
-{
-	const size_t end = o->n - p < m ? o->n : p + m;
-	const uint32_t *place = o->place;
-	for (size_t i = p + (p == 0); i < end;) {
-		if (i + run <= end && place[i + run - 1] - place[i - 1] == run) {
-			i += run;
-			continue;
-		}
-		for (size_t last = i + run < end ? i + run : end; i < last; i++)
-			for (int c = 0; c < n && place[i] - place[i - 1] != 1; c++)
-				__builtin_prefetch(from[c] + place[i]);
-	}
 }
 
 /* The same for column k of a record of floats, unless it is one number. */
@@ -582,22 +494,12 @@ static int allocate_records(struct pm_tile_order *o)
 	return 0;
 }
 
-/* At most one particle in so many has another tile than the one before. */
-static bool is_near(const struct pm_tile_order *o, int many)
-{
-	size_t changes = 0;
-#pragma omp parallel for num_threads(o->chunks) schedule(static) reduction(+ : changes)
-	for (size_t p = 1; p < o->n; p++)
-		changes += o->tile[p] != o->tile[p - 1];
-	return changes <= o->n / (size_t)many && o->n <= UINT32_MAX;
-}
-
-/* Room for the places of particles that stay, or for records. */
-static int allocate_order(struct pm_tile_order *o, int stays)
+/* The runs of particles that stay, or room for records. */
+static int allocate_order(struct pm_tile_order *o, int stays, size_t changes)
 {
 	if (stays) {
-		if (is_near(o, stays))
-			return (o->place = pm_alloc(o->n, sizeof *o->place)) ? 0 : -PM_DATA;
+		if (changes <= o->n / (size_t)stays && o->n <= UINT32_MAX)
+			return pm_tile_runs_init(&o->runs, o->tile, o->n, o->tiles, o->chunks, o->cursor + o->tiles + 1);
 		if (o->ways && !packs(o))
 			return 0;
 	}
@@ -616,23 +518,21 @@ static void move_records(struct pm_tile_order *o, int chunk, size_t *cursor)
 static int move(struct pm_tile_order *o, int stays, struct pm_strays *strays)
 {
 	const size_t columns = o->tiles + 1;
+	size_t changes = 0;
 	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
 	o->tile = pm_alloc(o->n, sizeof *o->tile);
 	if (!each || !o->tile)
 		return pm_free(each), -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(+ : changes)
 	for (int chunk = 0; chunk < o->chunks; chunk++)
-		count_chunk(o, chunk, &each[chunk]);
+		changes += count_chunk(o, chunk, &each[chunk]);
 	add_up(o);
-	if (allocate_order(o, stays))
+	if (allocate_order(o, stays, changes))
 		return pm_free(each), -PM_DATA;
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
-	for (int chunk = 0; chunk < o->chunks; chunk++)
-		if (o->place)
-			place_chunk(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
-		else if (o->records || o->floats)
-			move_records(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
-	if (o->place)
+	for (int chunk = 0; chunk < (o->records || o->floats ? o->chunks : 0); chunk++)
+		move_records(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
+	if (o->runs.run)
 		o->tile = pm_free(o->tile);
 	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
 		uint64_t count = strays->count;
@@ -714,7 +614,7 @@ void pm_tile_order_free(struct pm_tile_order *o)
 	pm_free(o->cursor);
 	pm_free(o->records);
 	pm_free(o->floats);
-	pm_free(o->place);
+	pm_tile_runs_free(&o->runs);
 	*o = (struct pm_tile_order){.n = 0};
 }
 
@@ -779,21 +679,7 @@ PM_SIMD_INLINE bool unpack_to(const uint32_t *place, size_t m, size_t stride, si
 		const bool plain = is_one(&r->factor[c]), set = r->set[c];
 		double *restrict y = r->to[c].doubles;
 		float *restrict z = r->to[c].floats;
-		size_t i = 0;
-		while (stride == 1 && plain && set && !z && i < m) {
-			const double *from = values + (size_t)c * next + i;
-			const size_t k = runs(place, i, m) ? run : 1;
-			if (k == run)
-				memcpy(y + place[i], from, run * sizeof *y);
-			else
-				y[place[i]] = *from;
-			i += k;
-		}
-		if (i) {
-			over |= pm_finite_few(m, values + (size_t)c * next) ? 0 : (uint64_t)1 << 63;
-			continue;
-		}
-		for (; i < m; i++) {
+		for (size_t i = 0; i < m; i++) {
 			const size_t p = place[i];
 			uint64_t bits;
 			double value = values[i * stride + (size_t)c * next];
@@ -810,31 +696,55 @@ PM_SIMD_INLINE bool unpack_to(const uint32_t *place, size_t m, size_t stride, si
 	return !(over >> 63);
 }
 
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r)
+/* Of particles that stay, and not together. */
+PM_SIMD_INLINE bool deliver(const struct pm_tile_order *o, size_t p, size_t m, size_t stride, size_t next, const double *values, int nvalues,
+	const struct pm_tile_results *r)
 {
-	if (stand_together(place, m))
-		return pm_tile_order_unpack(place[0], m, stride, records, nvalues, r);
-	return unpack_to(place, m, (size_t)stride, 1, records, nvalues, r);
+	uint32_t place[batch];
+	pm_tile_runs_places(&o->runs, p, m, place);
+	return unpack_to(place, m, stride, next, values, nvalues, r);
 }
 
-bool pm_tile_order_unpack_arrays(size_t p, const uint32_t *place, size_t m, const double *values, int nvalues, const struct pm_tile_results *r)
+/* Arrays of finite values that are set as they are go run by run. */
+static bool put_arrays(const struct pm_tile_order *o, size_t p, size_t m, const double *values, int nvalues, const struct pm_tile_results *r)
 {
-	if (place && !stand_together(place, m))
-		return unpack_to(place, m, 1, batch, values, nvalues, r);
-	return unpack(place ? place[0] : p, m, 1, batch, values, nvalues, r);
+	enum { most = PM_TILE_RUNS_MOST };
+	bool finite = true;
+	for (int c = 0, n; c < nvalues; c += n) {
+		const double *from[most];
+		double *to[most];
+		for (n = 0; n < most && c + n < nvalues; n++) {
+			from[n] = values + (size_t)(c + n) * batch, to[n] = r->to[c + n].doubles;
+			finite &= pm_finite_few(m, from[n]);
+		}
+		pm_tile_runs_put(&o->runs, p, m, n, from, to);
+	}
+	return finite;
+}
+
+bool pm_tile_order_deliver_arrays(const struct pm_tile_order *o, size_t p, size_t m, const double *values, int nvalues, const struct pm_tile_results *r)
+{
+	bool plain = true;
+	if (!o->runs.run || pm_tile_runs_together(&o->runs, p, m))
+		return unpack(o->runs.run ? pm_tile_runs_at(&o->runs, p) : p, m, 1, batch, values, nvalues, r);
+	for (int c = 0; c < nvalues; c++)
+		plain = plain && is_one(&r->factor[c]) && r->set[c] && r->to[c].doubles;
+	return plain ? put_arrays(o, p, m, values, nvalues, r) : deliver(o, p, m, 1, batch, values, nvalues, r);
 }
 
 bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
 	const struct pm_tile_results *r)
 {
-	return o->place ? pm_tile_order_unpack_to(o->place + p, m, stride, records, nvalues, r) : pm_tile_order_unpack(p, m, stride, records, nvalues, r);
+	if (!o->runs.run || pm_tile_runs_together(&o->runs, p, m))
+		return pm_tile_order_unpack(o->runs.run ? pm_tile_runs_at(&o->runs, p) : p, m, stride, records, nvalues, r);
+	return deliver(o, p, m, (size_t)stride, 1, records, nvalues, r);
 }
 
 void pm_tile_order_leave_strays(const struct pm_tile_order *o, int nvalues, const struct pm_tile_results *r)
 {
 	const double zero[PM_COMPONENTS] = {0};
-	for (size_t p = o->place ? o->begin[o->tiles] : o->n; p < o->n; p++)
-		pm_tile_order_unpack_to(o->place + p, 1, nvalues, zero, nvalues, r);
+	for (size_t p = o->runs.run ? o->begin[o->tiles] : o->n; p < o->n; p++)
+		pm_tile_order_deliver(o, p, 1, nvalues, zero, nvalues, r);
 }
 
 /* Particles p..p+m-1 of a chunk that ends at `end`. */

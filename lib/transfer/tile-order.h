@@ -4,6 +4,7 @@
 #define PM_TRANSFER_TILE_ORDER_H
 
 #include "stream/column.h"
+#include "transfer/tile-runs.h"
 #include "transfer/transfer-columns.h"
 #include "transfer/transfer-tile.h"
 
@@ -19,7 +20,7 @@ struct pm_tile_order {
 	float *floats;        /* [n][packed] in place of records, where positions are floats: x, v of ways, and the values that are not one number; NULL */
 	int packed;           /* floats per record there */
 	bool columns;         /* positions or values are floats: they are read through blocks (pm_tile_order_pack) */
-	uint32_t *place;      /* [n] the particles in the order of the tiles, where they stay in the stream; NULL */
+	struct pm_tile_runs runs; /* the particles in the order of the tiles, where they stay in the stream; else none */
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];
 	bool finite;          /* no position is NaN */
@@ -30,9 +31,9 @@ struct pm_tile_order {
 };
 
 /* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: not 0, and where at most one in so many has another tile than the one before,
- * they are not moved, and only their places are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt,
- * which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor places are made. */
-enum { PM_STAY_FEW = 8, PM_STAY_WIDE = 2 }; /* measured: of one number or a vector; of E and B, or ways */
+ * they are not moved, and only their runs are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt,
+ * which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor runs are made. */
+enum { PM_STAY_FEW = 5, PM_STAY_WIDE = 2 }; /* measured: of one number or a vector; of E and B, or ways */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;
@@ -87,29 +88,14 @@ void pm_tile_ways(double dt, double h, size_t m, const double *x, const double *
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite);
 /* The same of results that are floats, for targets that are, times factor already: they are set. 0 or failure. */
 int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *results, int stride, int nvalues, const struct pm_tile_results *r);
-/* The same for m particles from p on, or at these places, whose records are given. */
-bool pm_tile_order_unpack_to(const uint32_t *place, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
+/* The same for m particles of the stream from p on, whose records are given. */
 bool pm_tile_order_unpack(size_t p, size_t m, int stride, const double *records, int nvalues, const struct pm_tile_results *r);
-/* The same of arrays values[nvalues][PM_TILE_ORDER_PACK]; places: NULL or [m]. */
-bool pm_tile_order_unpack_arrays(size_t p, const uint32_t *place, size_t m, const double *values, int nvalues, const struct pm_tile_results *r);
-/* One of the two, as the order has places or none. Strays of particles that stay have places too, and get 0. */
+/* The same for m <= PM_TILE_ORDER_PACK particles from p on in order, that stay or stand in order, from records or arrays values[nvalues][PM_TILE_ORDER_PACK].
+ * Strays of particles that stay come last, and get 0. */
+bool pm_tile_order_deliver_arrays(const struct pm_tile_order *o, size_t p, size_t m, const double *values, int nvalues, const struct pm_tile_results *r);
 bool pm_tile_order_deliver(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
 	const struct pm_tile_results *r);
 void pm_tile_order_leave_strays(const struct pm_tile_order *o, int nvalues, const struct pm_tile_results *r);
-/* Are the m particles from p on, which have places, one behind the other in the stream? */
-bool pm_tile_order_together(const struct pm_tile_order *o, size_t p, size_t m);
 /* m values from p on in order: where they stand together those of the stream, else put together in few[m]. */
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few);
-/* The same of particles that do not, for n arrays of doubles at once, m <= PM_TILE_ORDER_PACK: from the stream to to[n][m], and back. The further ones of the
- * order, of which `from` may take the next, are fetched. */
-struct pm_tile_runs {
-	size_t n;
-	uint32_t at[PM_TILE_ORDER_PACK + 1]; /* of the m where each begins, and m */
-};
-void pm_tile_order_runs(const struct pm_tile_order *o, size_t p, size_t m, struct pm_tile_runs *r);
-void pm_tile_runs_take(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[]);
-void pm_tile_runs_put(const struct pm_tile_order *o, size_t p, const struct pm_tile_runs *r, int n, const double *const from[], double *const to[]);
-/* Fetches the places of the m particles from p on that do not stand behind the one before. */
-void pm_tile_order_fetch(const struct pm_tile_order *o, size_t p, size_t m, int n, const double *const from[]);
-
 #endif

@@ -34,7 +34,7 @@ void pm_tile_plane_spread(const struct pm_tile *t, const struct pm_tile_batch *b
 	size_t i = 0;
 	for (; i + PM_SIMD_WIDTH <= b->m; i += PM_SIMD_WIDTH) {
 		const struct eight e = find_eight_of(2, t, b, i);
-		pm_tile_batch_fetch(b, b->values, q, i);
+		__builtin_prefetch(b->next_value + i, 0, 2);
 		add_rows(PM_SIMD_WIDTH, &e, pm_simd_load_any(q + i), t->block);
 	}
 	if (i < b->m) {

@@ -210,7 +210,7 @@ PM_SIMD_INLINE struct eight find(int dim, const struct pm_tile *t, const struct 
 			*strength = pm_simd_load_any(q + i);
 		else
 			memcpy(strength, q + i, m * sizeof *q);
-		pm_tile_batch_fetch(b, b->values, q, i);
+		__builtin_prefetch(b->next_value + i, 0, 2);
 	}
 	if (b)
 		return find_eight_of(dim, t, b, i);

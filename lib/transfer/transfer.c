@@ -41,6 +41,42 @@ static pm_tile_spread_loop *spread_straight(int dim, const struct pm_kernel *k, 
 	return pm_tile_has_plane(dim, k) ? pm_tile_plane_spread : pm_tile_spread_wide_batch(dim, k);
 }
 
+/* Where particles stand in the stream that stay and come later than p. */
+static size_t later(const struct pm_tile_order *o, size_t p) { return pm_tile_runs_at(&o->runs, p + PM_TILE_AHEAD < o->n ? p + PM_TILE_AHEAD : o->n - 1); }
+
+/* Positions of particles that stay and stand apart, to few; or false. */
+static bool take_apart(struct pm_tile_batch *b, size_t p, size_t m, double few[3][PM_TILE_ORDER_PACK])
+{
+	const struct pm_tile_order *o = b->order;
+	const struct pm_tile_runs *r = &o->runs;
+	const double *from[3];
+	double *to[3];
+	if (!r->run || pm_tile_runs_together(r, p, m))
+		return false;
+	for (int d = 0; d < o->dim; d++) {
+		if (!o->x[d].doubles)
+			return false;
+		from[d] = o->x[d].doubles, b->x[d] = to[d] = few[d];
+		b->next[d] = from[d] + later(o, p);
+	}
+	pm_tile_runs_take(r, p, m, o->dim, from, to);
+	pm_tile_runs_fetch(r, p + m, PM_TILE_ORDER_PACK, o->dim, from);
+	return true;
+}
+
+/* Positions of the stream, or, where these are floats or stand apart, copied to few; then m <= PM_TILE_ORDER_PACK. */
+static void take(struct pm_tile_batch *b, size_t p, size_t m, double few[3][PM_TILE_ORDER_PACK])
+{
+	b->p = p, b->m = m;
+	if (few && take_apart(b, p, m, few))
+		return;
+	for (int d = 0; d < b->order->dim; d++) {
+		const struct pm_column *x = &b->order->x[d];
+		b->x[d] = few ? pm_tile_order_take(b->order, p, m, x, few[d]) : pm_column_take(x, p, m, NULL);
+		b->next[d] = b->x[d] + PM_TILE_AHEAD;
+	}
+}
+
 /* The particles of a job to its block. */
 void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int value, double *block)
 {
@@ -58,9 +94,11 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
 		if (straight) {
-			pm_tile_batch_take(&batch, p, t.count, few);
-			batch.values = &w->o->order.values[value];
-			straight(&t, &batch, pm_tile_order_take(&w->o->order, p, t.count, batch.values, packed));
+			const struct pm_column *values = &w->o->order.values[value];
+			const double *q = pm_tile_order_take(&w->o->order, p, t.count, values, packed);
+			take(&batch, p, t.count, few);
+			batch.next_value = q != packed || !values->doubles ? q + PM_TILE_AHEAD : values->doubles + later(&w->o->order, p);
+			straight(&t, &batch, q);
 			continue;
 		}
 		t.records = packed;
@@ -172,8 +210,8 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 	struct pm_target to[PM_COMPONENTS];
 	double *value[PM_COMPONENTS], *const places[3] = {few[0], few[1], few[2]};
 	bool set[PM_COMPONENTS], finite = true;
-	if (!w->blockwise && !o->place && !r->taker) {
-		pm_tile_batch_take(&batch, j->from, j->to - j->from, NULL);
+	if (!w->blockwise && !o->runs.run && !r->taker) {
+		take(&batch, j->from, j->to - j->from, NULL);
 		return loop(t, &batch, r);
 	}
 	for (int c = 0; c < w->components; c++)
@@ -181,9 +219,9 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 	const struct pm_column *now = r->most || r->taker ? r->factor : one, *then = r->most ? one : r->factor; /* what is looked at has its factor */
 	for (size_t p = j->from; p < j->to; p += PM_TILE_ORDER_PACK) {
 		const size_t m = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
-		pm_tile_batch_take(&batch, p, m, few);
-		if (!w->blockwise && !r->taker && pm_tile_order_together(o, p, m)) {
-			batch.p = o->place[p];
+		take(&batch, p, m, few);
+		if (!w->blockwise && !r->taker && pm_tile_runs_together(&o->runs, p, m)) {
+			batch.p = pm_tile_runs_at(&o->runs, p);
 			finite &= loop(t, &batch, r);
 			continue;
 		}
@@ -191,8 +229,8 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 		loop(t, &batch, &(struct pm_tile_results){now, set, to, r->most, NULL});
 		if (r->taker)
 			r->taker->take(r->taker->data, o, p, m, places, value);
-		for (int c = 0; c < w->components && !r->taker; c++)
-			finite &= pm_tile_order_deliver(o, p, m, 1, values[c], 1, &(struct pm_tile_results){&then[c], &r->set[c], &r->to[c], NULL, NULL});
+		else
+			finite &= pm_tile_order_deliver_arrays(o, p, m, values[0], w->components, &(struct pm_tile_results){then, r->set, r->to, NULL, NULL});
 	}
 	return finite;
 }

@@ -362,7 +362,7 @@ static void check_nearly(int dim, const size_t cells[3], size_t n, const char *k
 		}
 		pm_spread(&a.t, n, in(a.x), in(a.q), a.mesh, &strays);
 		pm_columns_of(dim, in(a.x), x);
-		stay = stay && ((struct pm_order_cache *)note)->order.place && strays.count == 1 && strays.first == n / 3;
+		stay = stay && ((struct pm_order_cache *)note)->order.runs.run && strays.count == 1 && strays.first == n / 3;
 		pm_gather(&a.t, n, in(a.x), in(b.mesh), NULL, a.out, &strays);
 		stay = stay && strays.finite && strays.count == 1;
 		for (int c = 0; c < dim; c++)
