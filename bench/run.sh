@@ -80,6 +80,7 @@ part_cycle() {
 		OMP_WAIT_POLICY=active run awake large.pm 60 fused
 		run tiny tiny.pm 5000 fused
 		run piped-large large.pm 5 pipes
+		run piped-longer large.pm 35 pipes
 		run piped-tiny tiny.pm 100 pipes
 	done
 	sed -i 1d ./*.stages ./*.wall
@@ -89,7 +90,10 @@ part_cycle() {
 	paste short.stages short.wall | awk '{ print 1e4 * ($2 - $1) }' | row cycle 'fused, 1e6 particles: reading, writing, first touch' ms - 0
 	paste large.wall | awk '{ print 1e3 * $1 }' | row cycle 'fused, 1e6 particles: a step' ms - 0
 	paste awake.wall large.wall | awk '{ print $2 / $1 }' | row cycle 'fused, 1e6 particles: a step over one with OMP_WAIT_POLICY=active' 'times' - 0
-	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles: a step above the fused stages' ms - 0
+	# steps 6 to 35 of pipes; the first five include the start of all processes and the first touch of their memory
+	paste piped-large.wall piped-longer.wall short.wall large.wall | awk '{ print (35 * $2 - 5 * $1) / 30 / ((60 * $4 - 10 * $3) / 50) }' |
+		row cycle 'piped, 1e6 particles, steps 6 to 35: a step over a fused one' times '<=' 2.5
+	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles, the first five steps: a step above the fused stages' ms - 0
 	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: overhead per step' us '<=' 20
 	paste tiny.wall | awk '{ print 1e6 * $1 }' | row cycle 'fused, 100 particles: a step' us - 0
 	paste tiny.stages piped-tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'piped, 100 particles: a step above the fused stages' us - 0
