@@ -93,7 +93,8 @@ part_cycle() {
 	# steps 6 to 35 of pipes; the first five include the start of all processes and the first touch of their memory
 	paste piped-large.wall piped-longer.wall short.wall large.wall | awk '{ print (35 * $2 - 5 * $1) / 30 / ((60 * $4 - 10 * $3) / 50) }' |
 		row cycle 'piped, 1e6 particles, steps 6 to 35: a step over a fused one' times '<=' 2.5
-	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' | row cycle 'piped, 1e6 particles, the first five steps: a step above the fused stages' ms - 0
+	paste large.stages piped-large.wall | awk '{ print 1e3 * ($2 - $1) }' |
+		row cycle 'piped, 1e6 particles, the first five steps: a step above the fused stages' ms - 0
 	paste tiny.stages tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'fused, 100 particles, 5000 steps: overhead per step' us '<=' 20
 	paste tiny.wall | awk '{ print 1e6 * $1 }' | row cycle 'fused, 100 particles: a step' us - 0
 	paste tiny.stages piped-tiny.wall | awk '{ print 1e6 * ($2 - $1) }' | row cycle 'piped, 100 particles: a step above the fused stages' us - 0
