@@ -245,6 +245,8 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 		status = divide(w, c, made);
 	if (made && made->type == PM_F64)
 		made->use |= PM_USE_DONE;
+	if (!status && (e->part == STRENGTH || ((e->part == POSITION || e->part == VOLUME) && pm_remesh_is_finite(&w->r))))
+		made->use |= PM_USE_SEEN; /* strengths were looked at on the nodes */
 	return pm_world_agree(status);
 }
 

@@ -354,6 +354,14 @@ void pm_remesh_volume(const struct pm_remesh *r, double *volume)
 	}
 }
 
+bool pm_remesh_is_finite(const struct pm_remesh *r)
+{
+	bool finite = isfinite(pm_grid_cell(&r->grid));
+	for (int d = 0; d < r->grid.dim; d++)
+		finite = finite && isfinite(r->grid.lo[d]) && isfinite(r->grid.lo[d] + (double)r->grid.points[d] * r->grid.h[d]);
+	return finite;
+}
+
 void pm_remesh_free(struct pm_remesh *r)
 {
 	for (int i = 0; i < r->n; i++)

@@ -40,6 +40,7 @@ int pm_remesh_keep(struct pm_remesh *r, double cut_off, int rim);
 void pm_remesh_value(const struct pm_remesh *r, int i, double *out);
 void pm_remesh_position(const struct pm_remesh *r, int d, double *x);
 void pm_remesh_volume(const struct pm_remesh *r, double *volume);
+bool pm_remesh_is_finite(const struct pm_remesh *r); /* are all positions and volumes? */
 double pm_remesh_total(const struct pm_remesh *r, int i); /* the sum of value i over all nodes */
 void pm_remesh_free(struct pm_remesh *r);
 
