@@ -245,8 +245,14 @@ PM_SIMD_INLINE pm_simd_part pm_simd_part_abs(pm_simd_part v) { return (pm_simd_p
 /* Larger values take their places; NaN none. */
 PM_SIMD_INLINE void pm_simd_raise(pm_simd *most, pm_simd v)
 {
+#if defined __AVX512F__ /* where one is NaN, or both are 0, the second */
+	*most = (pm_simd)_mm512_max_pd((__m512d)v, (__m512d)*most);
+#elif defined PM_SIMD_FOUR && defined __AVX__
+	*most = (pm_simd)_mm256_max_pd((__m256d)v, (__m256d)*most);
+#else
 	const pm_simd_bits above = v > *most;
 	*most = (pm_simd)(((pm_simd_bits)v & above) | ((pm_simd_bits)*most & ~above));
+#endif
 }
 
 /* v where the mask, aligned as a vector, is -1, and 0 where it is 0. */
