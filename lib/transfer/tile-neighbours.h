@@ -67,7 +67,7 @@ PM_SIMD_INLINE void add_to_row(int width, const pm_simd *x, pm_simd f, double *r
 
 /* Neighbours of weights x[point] and f[z][y] to their points, from the first one's on. What is added beyond them is 0, and no sum is -0, as blocks begin with
  * 0. In the plane the rows are unrolled, and their factors stay in registers. */
-PM_SIMD_INLINE void spread_neighbours(int dim, int width, const pm_simd *x, const pm_simd *f, double *first)
+PM_SIMD_INLINE void spread_neighbours(int dim, int width, const pm_simd *x, const pm_simd_at *f, double *first)
 {
 	const int across = pm_block_row[dim], plane = across * pm_block_rows[dim];
 	PM_SIMD_UNROLL
@@ -87,7 +87,7 @@ PM_SIMD_INLINE void add_row_of(int width, const double *row, pm_simd f, pm_simd 
 }
 
 /* Values at neighbours. */
-PM_SIMD_INLINE pm_simd gather_neighbours(int dim, int width, const pm_simd *x, const pm_simd *f, const double *first)
+PM_SIMD_INLINE pm_simd gather_neighbours(int dim, int width, const pm_simd *x, const pm_simd_at *f, const double *first)
 {
 	const int across = pm_block_row[dim], plane = across * pm_block_rows[dim];
 	pm_simd sum[most], value = {0};

@@ -43,7 +43,7 @@ PM_SIMD_INLINE void weights_of(int dim, const struct pm_kernel *kernel, int widt
 
 /* The weights of particles side by side: x[point], f[z][y]; strength: of spread, where the product of rows has it, or NULL. */
 PM_SIMD_INLINE void find_factors(int dim, int width, int degree, const struct pm_tile *t, const pm_simd *distance, const pm_simd *strength, pm_simd *x,
-	pm_simd *f)
+	pm_simd_at *f)
 {
 	pm_simd from[3], w[3][most];
 	PM_SIMD_UNROLL
@@ -74,22 +74,25 @@ PM_SIMD_INLINE pm_simd_int first_of(int dim, const struct eight *e)
 		first += e->cell[2] * plane;
 	return first;
 }
-/* Leaves them in memory. */
-PM_SIMD_INLINE void put_lot(int dim, int width, pm_simd_int at, const pm_simd *x, const pm_simd *f, struct lot *lot)
+
+/* Where the factors of rows are found: those of space, which are many, in memory. */
+PM_SIMD_INLINE pm_simd_at *rows_for(int dim, pm_simd_at *here, struct lot *lot) { return dim < 3 ? here : (pm_simd_at *)lot->f; }
+
+/* Leaves a lot in memory. */
+PM_SIMD_INLINE void put_lot(int dim, int width, pm_simd_int at, const pm_simd *x, const pm_simd_at *f, struct lot *lot)
 {
 	*(pm_simd_int_at *)lot->at = at;
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width; k++)
 		pm_simd_store(lot->x + k * PM_SIMD_WIDTH, x[k]);
-	for (int z = 0; z < planes_of(dim, width); z++)
-		PM_SIMD_UNROLL
-		for (int y = 0; y < most; y++)
-			if (y < rows_of(dim, width))
-				pm_simd_store(lot->f + (z * width + y) * PM_SIMD_WIDTH, f[z * width + y]);
+	PM_SIMD_UNROLL
+	for (int y = 0; y < most; y++)
+		if (dim < 3 && y < rows_of(dim, width))
+			pm_simd_store(lot->f + y * PM_SIMD_WIDTH, f[y]);
 }
 
 /* Those from a lane on, as the first ones; only m of them count. */
-PM_SIMD_INLINE void factors_from(int dim, int width, const struct lot *lot, size_t from, size_t m, pm_simd *x, pm_simd *f)
+PM_SIMD_INLINE void factors_from(int dim, int width, const struct lot *lot, size_t from, size_t m, pm_simd *x, pm_simd_at *f)
 {
 	PM_SIMD_UNROLL
 	for (int k = 0; k < width; k++)
@@ -193,7 +196,8 @@ PM_SIMD_INLINE void spread_some(int dim, int width, const struct lot *lot, size_
 		return;
 	}
 	for (int i = 0; i < r.n; i++) {
-		pm_simd x[most], f[most * most];
+		pm_simd x[most];
+		pm_simd_at f[most * most];
 		factors_from(dim, width, lot, r.at[i], r.at[i + 1] - r.at[i], x, f);
 		spread_neighbours(dim, width, x, f, block + lot->at[r.at[i]]);
 	}
@@ -229,7 +233,8 @@ PM_SIMD_INLINE void spread(int dim, int width, int degree, some_spread *some, co
 	const size_t count = b ? b->m : t->count;
 	for (size_t i = 0; i < count; i += PM_SIMD_WIDTH) {
 		const size_t m = count - i < PM_SIMD_WIDTH ? count - i : PM_SIMD_WIDTH;
-		pm_simd x[most], f[most * most], strength = {0};
+		pm_simd x[most], strength = {0};
+		pm_simd_at here[most], *f = rows_for(dim, here, &lot);
 		const struct eight e = find(dim, t, b, i, m, q, &strength);
 		const pm_simd_int at = first_of(dim, &e);
 		find_factors(dim, width, degree, t, e.distance, &strength, x, f);
@@ -285,7 +290,8 @@ PM_SIMD_INLINE void gather_some(int dim, int width, const struct lot *lot, size_
 		if (r.n > FEW_RUNS)
 			pm_simd_store_any(value[c], value_of(dim, width, lot, block));
 		for (int i = 0; i < r.n && r.n <= FEW_RUNS; i++) {
-			pm_simd x[most], f[most * most];
+			pm_simd x[most];
+			pm_simd_at f[most * most];
 			factors_from(dim, width, lot, r.at[i], PM_SIMD_WIDTH, x, f);
 			pm_simd_store_any(value[c] + r.at[i], gather_neighbours(dim, width, x, f, block + lot->at[r.at[i]]));
 		}
@@ -381,7 +387,8 @@ PM_SIMD_INLINE bool gather(int dim, int width, int degree, some_gather *some, co
 		const size_t n = count - i < PM_SIMD_WIDTH ? count - i : PM_SIMD_WIDTH;
 		const struct eight e = find(dim, t, b, i, n, NULL, NULL);
 		const pm_simd_int at = first_of(dim, &e);
-		pm_simd x[most], f[most * most];
+		pm_simd x[most];
+		pm_simd_at here[most], *f = rows_for(dim, here, &lot);
 		find_factors(dim, width, degree, t, e.distance, NULL, x, f);
 		if (n == PM_SIMD_WIDTH && are_neighbours(at)) {
 			for (int c = 0; c < t->components; c++)
@@ -410,14 +417,14 @@ PM_SIMD_INLINE void woven(int width, int degree, const struct pm_tile *t)
 			const size_t n = m - i < PM_SIMD_WIDTH ? m - i : PM_SIMD_WIDTH;
 			const double *record[PM_SIMD_WIDTH];
 			size_t index[PM_SIMD_WIDTH];
-			pm_simd x[most], f[most * most], unused;
+			pm_simd x[most], unused;
 			for (size_t l = 0; l < PM_SIMD_WIDTH; l++) { /* the last ones may be fewer: the first of them stands in for the rest */
 				index[l] = from + (sorted ? order[i + (l < n ? l : 0)] : i + (l < n ? l : 0));
 				record[l] = t->records + index[l] * (size_t)t->stride;
 			}
 			const struct eight e = find_eight_at(t, record, &unused);
-			find_factors(3, width, degree, t, e.distance, NULL, x, f);
-			put_lot(3, width, first_of(3, &e) * 4, x, f, &lot);
+			find_factors(3, width, degree, t, e.distance, NULL, x, (pm_simd_at *)lot.f);
+			put_lot(3, width, first_of(3, &e) * 4, x, NULL, &lot);
 			const int group = pm_vector_group(t->components);
 			const double *nodes = t->nodes;
 			for (int c = 0; c < t->components; c += group, nodes += PM_VECTOR_NODES)
