@@ -19,16 +19,19 @@ struct lot {
 /* Are all particles with these first points in neighbouring cells? */
 PM_SIMD_INLINE bool are_neighbours(pm_simd_int at) { return !pm_simd_int_others(at - pm_simd_int_lanes(), at[0]); }
 
-/* What of a lot stands in neighbouring cells: n runs that begin at at[], the last of which ends at at[n]. More than FEW_RUNS: not worth it. */
-enum { FEW_RUNS = 3 };
+/* What of a lot stands in neighbouring cells: n runs that begin at at[], the last of which ends at at[n]. More than FEW_RUNS, in space more than one: not
+ * worth it. */
+enum { FEW_RUNS = 2 };
 struct runs {
 	int n;
 	size_t at[FEW_RUNS + 1];
 };
 
-PM_SIMD_INLINE struct runs runs_of(const struct lot *lot, size_t m)
+PM_SIMD_INLINE struct runs runs_of(int dim, const struct lot *lot, size_t m)
 {
 	struct runs r = {.n = 1};
+	if (dim == 3)
+		return (struct runs){.n = FEW_RUNS + 1};
 	for (size_t l = 1; l < m; l++)
 		if (lot->at[l] != lot->at[l - 1] + 1) {
 			if (r.n == FEW_RUNS)

@@ -190,7 +190,7 @@ PM_SIMD_INLINE void spread_apart(int dim, int width, const struct lot *lot, size
 /* The first m of a lot; not inlined: it is the same whatever the degree. */
 PM_SIMD_INLINE void spread_some(int dim, int width, const struct lot *lot, size_t m, double *block)
 {
-	const struct runs r = runs_of(lot, m);
+	const struct runs r = runs_of(dim, lot, m);
 	if (r.n > FEW_RUNS) {
 		spread_apart(dim, width, lot, m, block);
 		return;
@@ -285,7 +285,7 @@ PM_SIMD_INLINE pm_simd value_of(int dim, int width, const struct lot *lot, const
 /* Components at the first m, by runs of neighbours where there are few; not inlined. */
 PM_SIMD_INLINE void gather_some(int dim, int width, const struct lot *lot, size_t m, int components, const double *block, double value[][2 * PM_SIMD_WIDTH])
 {
-	const struct runs r = runs_of(lot, m);
+	const struct runs r = runs_of(dim, lot, m);
 	for (int c = 0; c < components; c++, block += PM_BLOCK_MOST) {
 		if (r.n > FEW_RUNS)
 			pm_simd_store_any(value[c], value_of(dim, width, lot, block));
