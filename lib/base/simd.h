@@ -397,16 +397,7 @@ PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
 }
 
 /* 0, 1, 2, ... */
-PM_SIMD_INLINE pm_simd_int pm_simd_int_lanes(void)
-{
-#if defined PM_SIMD_EIGHT
-	return (pm_simd_int){0, 1, 2, 3, 4, 5, 6, 7};
-#elif defined PM_SIMD_FOUR
-	return (pm_simd_int){0, 1, 2, 3};
-#else
-	return (pm_simd_int){0, 1};
-#endif
-}
+PM_SIMD_INLINE pm_simd_int pm_simd_int_lanes(void) { return __builtin_convertvector(pm_simd_lanes(), pm_simd_int); }
 
 /* Bit l: lane l is not n. */
 PM_SIMD_INLINE unsigned pm_simd_int_others(pm_simd_int v, int32_t n)

@@ -191,12 +191,11 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 		read[c] = from[c] = c < dim ? k->x[c] : k->v[c - dim];
 		y[c] = together ? from[c] + at : c < dim && known ? places[c] : few[c];
 	}
+	const int first = known ? dim : 0; /* positions were taken, and the next ones fetched, before the gather */
 	if (runs)
-		pm_tile_runs_fetch(runs, p + m, pack, all, read);
-	if (!together) {
-		const int first = known ? dim : 0;
+		pm_tile_runs_fetch(runs, p + m, pack, all - first, read + first);
+	if (!together)
 		pm_tile_runs_take(runs, p, m, all - first, read + first, y + first);
-	}
 	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
 	for (size_t i = 0; i < m && factor && together; i += line)
 		__builtin_prefetch(factor + PM_TILE_AHEAD + i);

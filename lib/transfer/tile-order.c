@@ -1,5 +1,6 @@
 /* A stable counting sort of particles into tiles of cells: count per chunk of the stream, add up, move the records. Stability makes the result
- * independent of the number of chunks, which is the number of threads. Particles that are already in the order of tiles are not moved.
+ * independent of the number of chunks, which is the number of threads. Particles that are already in the order of tiles are not moved, and of those that
+ * nearly are only the runs are sorted (tile-runs.h).
  * Cost: two passes over the positions, one over the rest.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>

@@ -8,10 +8,10 @@
 /* log2 of the cells per tile and axis, by dim. Fixed: sums are made tile by tile. */
 static const int pm_tile_shift[4][3] = {{0, 0, 0}, {12, 0, 0}, {6, 6, 0}, {5, 4, 3}}; /* long rows, because the mesh is read and written in rows */
 
-/* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors. Its rows have this many
- * points, its planes this many rows. */
+/* A block holds the points of a tile and of the kernels that reach over its edges, with room for whole vectors: those of neighbours (tile-neighbours.h) end
+ * 16 points beyond a cell, of the last row of a line too. Its rows have this many points, its planes this many rows. */
 enum { PM_BLOCK_ROW = 32 + 12, PM_BLOCK_ROWS = 16 + 11, PM_BLOCK_PLANES = 8 + 12 }; /* in space; together a number of whole lines */
-static const int pm_block_row[4] = {0, 4096 + 12, 64 + 12, PM_BLOCK_ROW};
+static const int pm_block_row[4] = {0, 4096 + 16, 64 + 12, PM_BLOCK_ROW};
 static const int pm_block_rows[4] = {0, 1, 64 + 11, PM_BLOCK_ROWS};
 static const int pm_block_planes[4] = {0, 1, 1, PM_BLOCK_PLANES};
 enum { PM_BLOCK_MOST = PM_BLOCK_ROW * PM_BLOCK_ROWS * PM_BLOCK_PLANES, PM_TILE_CELLS = 4096 };
