@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Transfers with the registers of other processors of this kind: lib/transfer is built for SSE2 and for AVX2 and linked in front of the library as it was built
-# for this one (make unit), and its unit test must pass as it does here. Elsewhere than on x86-64, and where AVX2 is not there, it is skipped. Ends with
+# for this one (make unit), and its unit tests must pass as they do here. Elsewhere than on x86-64, and where AVX2 is not there, it is skipped. Ends with
 # `N passed, N failed, N skipped`. One minute. SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,16 +24,18 @@ for level in x86-64 x86-64-v3; do
 	for file in lib/transfer/*.c; do
 		printf '%s\n' "$level $file $scratch/$level/$(basename "$file" .c).o"
 	done | xargs -P "$(nproc)" -L 1 bash -c 'build "$@"' bash
-	"$CC" -fopenmp build/tests/unit/transfer.o "$scratch/$level"/*.o build/libwhole.so -Wl,-rpath,"$PWD/build" -lm -o "$scratch/transfer"
-	said=$("$scratch/transfer" 2>&1) || true
-	grep '^not ok' <<<"$said" || true
-	last=$(tail -n 1 <<<"$said")
-	echo "widths: $level: $last"
-	if [[ $last =~ ^#\ ([0-9]+)\ passed,\ ([0-9]+)\ failed$ ]]; then
-		passed=$((passed + BASH_REMATCH[1])) failed=$((failed + BASH_REMATCH[2]))
-	else
-		failed=$((failed + 1))
-	fi
+	for unit in transfer tile-runs; do
+		"$CC" -fopenmp build/tests/unit/$unit.o "$scratch/$level"/*.o build/libwhole.so -Wl,-rpath,"$PWD/build" -lm -o "$scratch/$unit"
+		said=$("$scratch/$unit" 2>&1) || true
+		grep '^not ok' <<<"$said" || true
+		last=$(tail -n 1 <<<"$said")
+		echo "widths: $level: $unit: $last"
+		if [[ $last =~ ^#\ ([0-9]+)\ passed,\ ([0-9]+)\ failed$ ]]; then
+			passed=$((passed + BASH_REMATCH[1])) failed=$((failed + BASH_REMATCH[2]))
+		else
+			failed=$((failed + 1))
+		fi
+	done
 done
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed = 0 ]

@@ -303,6 +303,75 @@ PM_SIMD_INLINE pm_simd pm_simd_where_below(pm_simd a, pm_simd b, pm_simd yes, pm
 	return (pm_simd)((below & (pm_simd_bits)yes) | (~below & (pm_simd_bits)no));
 }
 
+/* How many bits are set: of a byte, and of a word. */
+PM_SIMD_INLINE size_t pm_simd_bits_of_byte(unsigned byte)
+{
+#ifdef __POPCNT__
+	return (size_t)__builtin_popcount(byte);
+#else
+	byte -= byte >> 1 & 0x55, byte = (byte & 0x33) + (byte >> 2 & 0x33);
+	return (byte + (byte >> 4)) & 15;
+#endif
+}
+PM_SIMD_INLINE size_t pm_simd_bits_of_word(uint64_t word)
+{
+#ifdef __POPCNT__
+	return (size_t)__builtin_popcountll(word);
+#else
+	word -= word >> 1 & 0x5555555555555555, word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
+	return (size_t)(((word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
+#endif
+}
+
+/* The number of the k-th bit that is set, from 0; there is one. */
+PM_SIMD_INLINE size_t pm_simd_bit(uint64_t bits, size_t k)
+{
+#ifdef __BMI2__
+	return (size_t)__builtin_ctzll(_pdep_u64((uint64_t)1 << k, bits));
+#else
+	size_t at = 0;
+	for (size_t here; (here = pm_simd_bits_of_byte(bits & 255)) <= k; bits >>= 8, at += 8) /* whole bytes first */
+		k -= here;
+	for (; k; k--)
+		bits &= bits - 1;
+	return at + (size_t)__builtin_ctzll(bits);
+#endif
+}
+
+/* The lanes whose bits are set, one behind the other, from the first on; what is in the others is left open. And the first ones of v to those of to[] whose
+ * bits are set, of which the others are not touched. */
+PM_SIMD_INLINE pm_simd pm_simd_pack(pm_simd v, unsigned some)
+{
+#if defined __AVX512F__
+	return (pm_simd)_mm512_maskz_compress_pd((__mmask8)some, (__m512d)v);
+#elif defined PM_SIMD_FOUR && defined __AVX2__
+	static const int32_t order[16][8] = {{0}, {0, 1}, {2, 3}, {0, 1, 2, 3}, {4, 5}, {0, 1, 4, 5}, {2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}, {6, 7}, {0, 1, 6, 7},
+		{2, 3, 6, 7}, {0, 1, 2, 3, 6, 7}, {4, 5, 6, 7}, {0, 1, 4, 5, 6, 7}, {2, 3, 4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
+	return (pm_simd)_mm256_permutevar8x32_ps((__m256)v, _mm256_loadu_si256((const __m256i *)order[some]));
+#else
+	double packed[PM_SIMD_WIDTH + 1] = {0};
+	size_t k = 0;
+	if (some == (1u << PM_SIMD_WIDTH) - 1)
+		return v;
+	for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
+		packed[k] = v[l];
+		k += some >> l & 1;
+	}
+	memcpy(&v, packed, sizeof v);
+	return v;
+#endif
+}
+PM_SIMD_INLINE void pm_simd_unpack_to(double *to, pm_simd v, unsigned some)
+{
+#if defined __AVX512F__
+	_mm512_mask_storeu_pd(to, (__mmask8)some, _mm512_maskz_expand_pd((__mmask8)some, (__m512d)v));
+#else
+	size_t k = 0;
+	for (; some; some &= some - 1)
+		to[__builtin_ctz(some)] = v[k++];
+#endif
+}
+
 /* v in lanes from..to-1, else other. */
 PM_SIMD_INLINE pm_simd pm_simd_between(size_t from, size_t to, pm_simd v, pm_simd other)
 {

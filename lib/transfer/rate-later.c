@@ -134,7 +134,7 @@ static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *s
 		yes = t->set[c] && a->times[c].doubles == a->times[0].doubles && !a->times[c].floats &&
 			!memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]);
 	const struct pm_order_cache *o = yes ? order_of(t, t->kept, x) : NULL;
-	return o && (!o->order.runs.run || a->n >= 4 * pm_grid_size(&t->grid)); /* few that stand apart are put together at the cost of what the pass saves */
+	return o != NULL;
 }
 
 int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left)

@@ -7,8 +7,8 @@
 
 #include "transfer/tile-order.h"
 
-/* ahead: the place of a later record is prefetched; line: doubles per cache line; many: a change of tile in fewer particles takes longer than these alone */
-enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, many = 16 };
+/* ahead: the place of a later record is prefetched; line: doubles per cache line */
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, begun = 256 /* eights before it is asked whether there are too many */ };
 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk); }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk + 1); }
@@ -40,12 +40,12 @@ static bool locate(const struct pm_tile_order *o, size_t p, size_t m, double u[3
 	return all;
 }
 
-static void find_strays(struct pm_tile_order *o, size_t p, size_t m, double u[3][batch], struct pm_strays *strays)
+static void find_strays(const struct pm_tile_order *o, size_t p, size_t m, double u[3][batch], uint32_t *tile, struct pm_strays *strays)
 {
 	for (size_t i = 0; i < m; i++)
 		for (int d = 0; d < o->dim; d++)
 			if (u[d][i] < 0) {
-				o->tile[p + i] = (uint32_t)o->tiles;
+				tile[i] = (uint32_t)o->tiles;
 				double at[3] = {0};
 				for (int e = 0; e < o->dim; e++)
 					at[e] = pm_column_at(&o->x[e], p + i);
@@ -182,41 +182,56 @@ static bool count_in_order(struct pm_tile_order *o, int chunk, uint32_t ends[2])
 	return true;
 }
 
-/* How many of the m particles behind the one at tile[0] have another tile than the one before. */
-static size_t changes_of(const uint32_t *tile, size_t m)
+static void any_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, size_t p, size_t m, uint32_t *tile, struct pm_strays *strays)
 {
-	uint32_t changes = 0;
-	for (size_t i = 0; i < m; i++)
-		changes += tile[i] != tile[i + 1];
-	return changes;
+	double u[3][batch];
+	if (usual_tiles(o, lanes, p, m, u, tile))
+		return;
+	const bool all = locate(o, p, m, u);
+	find_tiles(o, m, u, tile);
+	if (!all)
+		find_strays(o, p, m, u, tile, strays);
 }
 
-/* Counts, and keeps the tile of each; how often the tile changes. */
-static size_t count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
+/* Counts the tiles of a chunk, and finds its runs; false where there are too many for particles to stay. */
+static bool find_chunk(struct pm_tile_order *o, int chunk, size_t stays, struct pm_tile_finds *f, struct pm_strays *strays)
 {
-	size_t changed = 0, *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
-	double u[3][batch];
+	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
+	struct pm_axis_lanes lanes[3];
+	uint32_t tile[batch];
+	for (int d = 0; d < o->dim; d++)
+		lanes[d] = pm_axis_lanes(&o->axes[d]);
+	memset(count, 0, (o->tiles + 1) * sizeof *count);
+	*strays = (struct pm_strays){.count = 0};
+	for (size_t from = chunk_from(o, chunk), p = from, to = chunk_to(o, chunk); p < to; p += batch) {
+		const size_t m = to - p < batch ? to - p : batch, before = f->n;
+		any_tiles(o, lanes, p, m, tile, strays);
+		for (size_t i = 0; i < m; i += PM_TILE_RUN)
+			if (!pm_tile_runs_find(f, p + i, m - i < PM_TILE_RUN ? m - i : PM_TILE_RUN, tile + i))
+				return false;
+		for (size_t k = before; k < f->n; k++)
+			count[f->found[k].tile] += pm_simd_bits_of_word(f->found[k].members);
+		if (f->eights > begun + (p + m - from) / PM_TILE_RUN * stays)
+			return false;
+	}
+	return true;
+}
+
+/* Counts, and keeps the tile of each. */
+static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
+{
+	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	struct pm_axis_lanes lanes[3];
 	for (int d = 0; d < o->dim; d++)
 		lanes[d] = pm_axis_lanes(&o->axes[d]);
 	memset(count, 0, (o->tiles + 1) * sizeof *count);
 	*strays = (struct pm_strays){.count = 0};
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
-		size_t m = to - p < batch ? to - p : batch;
-		if (!usual_tiles(o, lanes, p, m, u, o->tile + p)) {
-			bool all = locate(o, p, m, u);
-			find_tiles(o, m, u, o->tile + p);
-			if (!all)
-				find_strays(o, p, m, u, strays);
-		}
-		const size_t behind = p > chunk_from(o, chunk), changes = changes_of(o->tile + p - behind, m - 1 + behind);
-		changed += changes;
-		for (size_t i = p, end; i < p + m; i = end) { /* a counter that is raised one by one waits for itself */
-			end = changes <= m / many ? pm_tile_other(o->tile, i, p + m) : i + 1;
-			count[o->tile[i]] += end - i;
-		}
+		const size_t m = to - p < batch ? to - p : batch;
+		any_tiles(o, lanes, p, m, o->tile + p, strays);
+		for (size_t i = p; i < p + m; i++)
+			count[o->tile[i]]++;
 	}
-	return changed;
 }
 
 /* Counts become the first place of each chunk in each tile. Row 0 is that of chunk 0 for good; row c+1 is used up by chunk c and is then
@@ -495,18 +510,6 @@ static int allocate_records(struct pm_tile_order *o)
 	return 0;
 }
 
-/* The runs of particles that stay, or room for records. */
-static int allocate_order(struct pm_tile_order *o, int stays, size_t changes)
-{
-	if (stays) {
-		if (changes <= o->n / (size_t)stays && o->n <= UINT32_MAX)
-			return pm_tile_runs_init(&o->runs, o->tile, o->n, o->tiles, o->chunks, o->cursor + o->tiles + 1);
-		if (o->ways && !packs(o))
-			return 0;
-	}
-	return allocate_records(o);
-}
-
 static void move_records(struct pm_tile_order *o, int chunk, size_t *cursor)
 {
 	if (o->floats)
@@ -515,34 +518,67 @@ static void move_records(struct pm_tile_order *o, int chunk, size_t *cursor)
 		move_chunk(o, chunk, cursor);
 }
 
-/* The tiles of a stream in any order, and its records in theirs. */
-static int move(struct pm_tile_order *o, int stays, struct pm_strays *strays)
+/* Of all chunks: the first stray is that of the first chunk that has one. */
+static void add_strays(int chunks, const struct pm_strays *each, struct pm_strays *strays)
 {
-	const size_t columns = o->tiles + 1;
-	size_t changes = 0;
-	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
-	o->tile = pm_alloc(o->n, sizeof *o->tile);
-	if (!each || !o->tile)
-		return pm_free(each), -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(+ : changes)
-	for (int chunk = 0; chunk < o->chunks; chunk++)
-		changes += count_chunk(o, chunk, &each[chunk]);
-	add_up(o);
-	if (allocate_order(o, stays, changes))
-		return pm_free(each), -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
-	for (int chunk = 0; chunk < (o->records || o->floats ? o->chunks : 0); chunk++)
-		move_records(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
-	if (o->runs.run)
-		o->tile = pm_free(o->tile);
-	for (int chunk = o->chunks - 1; chunk >= 0; chunk--) { /* the first stray is that of the first chunk that has one */
+	for (int chunk = chunks - 1; chunk >= 0; chunk--) {
 		uint64_t count = strays->count;
 		if (each[chunk].count)
 			*strays = each[chunk];
 		strays->count = count + each[chunk].count;
 	}
-	pm_free(each);
+}
+
+/* 1: the runs of a stream that is nearly in order, 0: it is not, or failure. */
+static int find_runs(struct pm_tile_order *o, size_t stays, struct pm_strays *each, struct pm_strays *strays)
+{
+	const size_t columns = o->tiles + 1, most = o->n / (size_t)o->chunks + (size_t)o->chunks; /* in a chunk */
+	const size_t room = begun + batch + (most / PM_TILE_RUN + 1) * stays; /* a run has an eight or more */
+	struct pm_tile_finds *f = pm_alloc((size_t)o->chunks, sizeof *f);
+	struct pm_tile_found *found = pm_alloc((size_t)o->chunks * room, sizeof *found);
+	int many = 0, status = f && found ? 0 : -PM_DATA;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : many) if (!status)
+	for (int chunk = 0; chunk < (status ? 0 : o->chunks); chunk++) {
+		f[chunk] = (struct pm_tile_finds){.found = found + (size_t)chunk * room, .room = room};
+		many |= !find_chunk(o, chunk, stays, &f[chunk], &each[chunk]);
+	}
+	if (!status && !many) {
+		add_up(o);
+		status = pm_tile_runs_init(&o->runs, f, o->n, o->tiles, o->chunks, o->cursor + columns);
+		add_strays(o->chunks, each, strays);
+	}
+	pm_free(found), pm_free(f);
+	return status ? status : !many;
+}
+
+/* The tiles of a stream in any order, and its records in theirs. */
+static int move(struct pm_tile_order *o, bool records, struct pm_strays *each, struct pm_strays *strays)
+{
+	const size_t columns = o->tiles + 1;
+	o->tile = pm_alloc(o->n, sizeof *o->tile);
+	if (!o->tile)
+		return -PM_DATA;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < o->chunks; chunk++)
+		count_chunk(o, chunk, &each[chunk]);
+	add_up(o);
+	add_strays(o->chunks, each, strays);
+	if (records && allocate_records(o))
+		return -PM_DATA;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1)
+	for (int chunk = 0; chunk < (records ? o->chunks : 0); chunk++)
+		move_records(o, chunk, o->cursor + (size_t)(chunk + 1) * columns);
 	return 0;
+}
+
+static int runs_or_move(struct pm_tile_order *o, int stays, struct pm_strays *strays)
+{
+	struct pm_strays *each = pm_alloc((size_t)o->chunks, sizeof *each);
+	int status = !each ? -PM_DATA : stays && o->n <= UINT32_MAX ? find_runs(o, (size_t)stays, each, strays) : 0;
+	if (!status)
+		status = move(o, !stays || !o->ways || packs(o), each, strays);
+	pm_free(each);
+	return status < 0 ? status : 0;
 }
 
 void pm_tile_order_spend(struct pm_tile_order *o)
@@ -603,7 +639,7 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 	if ((status = allocate(o)))
 		return status;
 	if (!in_order(o))
-		return move(o, p->v && !p->stays ? PM_STAY_WIDE : p->stays, strays);
+		return runs_or_move(o, p->v && !p->stays ? PM_STAY_WIDE : p->stays, strays);
 	add_up(o);
 	return 0;
 }

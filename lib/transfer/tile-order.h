@@ -30,10 +30,10 @@ struct pm_tile_order {
 	struct pm_column values[PM_COMPONENTS];
 };
 
-/* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: not 0, and where at most one in so many has another tile than the one before,
- * they are not moved, and only their runs are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt,
- * which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor runs are made. */
-enum { PM_STAY_FEW = 5, PM_STAY_WIDE = 2 }; /* measured: of one number or a vector; of E and B, or ways */
+/* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: not 0, and where runs (tile-runs.h) have some of at most so many eights of 64
+ * particles, these are not moved, and only the runs are kept. `finite`: no position is NaN, which is to be found as a stray. v[dim] not NULL: their ways
+ * x..x + v dt, which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor runs are made. */
+enum { PM_STAY_FEW = 21, PM_STAY_WIDE = 26 }; /* measured: of one number or a vector; of E and B, or ways */
 struct pm_tile_particles {
 	int dim, nvalues;
 	size_t n;

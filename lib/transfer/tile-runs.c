@@ -1,17 +1,44 @@
-/* Runs of particles that stand one behind the other in a stream that is nearly in the order of tiles: those of each tile by a stable counting sort. Stability
- * makes the order independent of the number of chunks, though a run that goes over the end of a chunk is two.
- * Cost: two passes over the tiles, in which only changes take time. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs of a stream that is nearly in the order of tiles: of each 64 particles those of one tile are a run, whatever stands between them, so that most
+ * particles go by whole registers, from which the others are left out. The runs of each tile by a stable counting sort. Stability makes the order
+ * independent of the number of chunks, though 64 that go over the end of a chunk are two.
+ * Cost: a pass over the tiles, and one over the runs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "transfer/tile-runs.h"
 
-enum { line = 8, MOST = PM_TILE_RUNS_MOST };
+enum { W = PM_SIMD_WIDTH, MOST = PM_TILE_RUNS_MOST, few = 8 /* of a run: they go one by one */ };
+static const unsigned all_lanes = (1u << W) - 1;
 
-/* How many runs a chunk has in each tile. */
-static void count_runs(const uint32_t *tile, size_t from, size_t to, uint32_t *count)
+static size_t eights_of(uint64_t members)
 {
-	for (size_t i = from; i < to; i = pm_tile_other(tile, i, to))
-		count[tile[i]]++;
+	members |= members >> 4, members |= members >> 2, members |= members >> 1;
+	return pm_simd_bits_of_word(members & 0x0101010101010101);
+}
+
+/* Those of m that are in this tile. */
+static uint64_t members_of(uint32_t here, size_t m, const uint32_t *tile)
+{
+	uint64_t members = 0;
+	size_t i = 0;
+	for (; i + W <= m; i += W)
+		members |= (uint64_t)(all_lanes & ~pm_simd_int_others(*(const pm_simd_int_at *)(tile + i), (int32_t)here)) << i;
+	for (; i < m; i++)
+		members |= (uint64_t)(tile[i] == here) << i;
+	return members;
+}
+
+bool pm_tile_runs_find(struct pm_tile_finds *f, size_t at, size_t m, const uint32_t *tile)
+{
+	for (uint64_t left = ~(uint64_t)0 >> (PM_TILE_RUN - m); left;) {
+		const uint32_t here = tile[__builtin_ctzll(left)];
+		const uint64_t members = members_of(here, m, tile);
+		if (f->n == f->room)
+			return false;
+		f->found[f->n++] = (struct pm_tile_found){here, (uint32_t)at, members};
+		f->eights += eights_of(members);
+		left &= ~members;
+	}
+	return true;
 }
 
 /* Counts become the numbers of each chunk's first runs; how many there are. */
@@ -27,56 +54,42 @@ static size_t add_up(uint32_t *count, size_t columns, int chunks)
 	return all;
 }
 
-static void put_runs(struct pm_tile_runs *r, const uint32_t *tile, size_t from, size_t to, uint32_t *next, size_t *cursor)
+static void put_runs(struct pm_tile_runs *r, const struct pm_tile_finds *f, uint32_t *next, size_t *cursor)
 {
-	for (size_t i = from, end; i < to; i = end) {
-		const uint32_t t = tile[i];
-		end = pm_tile_other(tile, i, to);
-		r->run[next[t]++] = (struct pm_tile_run){(uint32_t)cursor[t], (uint32_t)i};
-		cursor[t] += end - i;
+	for (size_t i = 0; i < f->n; i++) {
+		const struct pm_tile_found *found = &f->found[i];
+		const size_t from = cursor[found->tile], to = from + pm_simd_bits_of_word(found->members), full = (from + PM_TILE_RUN - 1) / PM_TILE_RUN;
+		const uint32_t k = next[found->tile]++;
+		r->run[k] = (struct pm_tile_run){(uint32_t)from, found->at, found->members};
+		if (full * PM_TILE_RUN < to)
+			r->of[full] = k;
+		cursor[found->tile] = to;
 	}
 }
 
-/* The last run that begins at p or before. */
-static size_t search(const struct pm_tile_runs *r, size_t p)
-{
-	size_t low = 0, high = r->n;
-	while (high - low > 1) {
-		const size_t middle = low + (high - low) / 2;
-		if (r->run[middle].from <= p)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
-}
-
-static int make(struct pm_tile_runs *r, const uint32_t *tile, size_t columns, int chunks, size_t *cursor, uint32_t *next)
+static int make(struct pm_tile_runs *r, const struct pm_tile_finds *f, size_t columns, int chunks, size_t *cursor, uint32_t *next)
 {
 #pragma omp parallel for num_threads(chunks) schedule(static, 1)
 	for (int k = 0; k < chunks; k++)
-		count_runs(tile, pm_tile_chunk(r->all, chunks, k), pm_tile_chunk(r->all, chunks, k + 1), next + (size_t)k * columns);
+		for (size_t i = 0; i < f[k].n; i++)
+			next[(size_t)k * columns + f[k].found[i].tile]++;
 	r->n = add_up(next, columns, chunks);
 	r->run = pm_alloc(r->n + 1, sizeof *r->run);
-	r->of = pm_alloc(r->all / PM_TILE_RUNS_EACH + 1, sizeof *r->of);
+	r->of = pm_zalloc(r->all / PM_TILE_RUN + 1, sizeof *r->of);
 	if (!r->run || !r->of)
 		return -PM_DATA;
-	r->run[r->n] = (struct pm_tile_run){(uint32_t)r->all, 0};
+	r->run[r->n] = (struct pm_tile_run){.from = (uint32_t)r->all};
 #pragma omp parallel for num_threads(chunks) schedule(static, 1)
 	for (int k = 0; k < chunks; k++)
-		put_runs(r, tile, pm_tile_chunk(r->all, chunks, k), pm_tile_chunk(r->all, chunks, k + 1), next + (size_t)k * columns,
-			cursor + (size_t)k * columns);
-#pragma omp parallel for num_threads(chunks) schedule(static)
-	for (size_t b = 0; b <= r->all / PM_TILE_RUNS_EACH; b++)
-		r->of[b] = (uint32_t)search(r, b * PM_TILE_RUNS_EACH);
+		put_runs(r, &f[k], next + (size_t)k * columns, cursor + (size_t)k * columns);
 	return 0;
 }
 
-int pm_tile_runs_init(struct pm_tile_runs *r, const uint32_t *tile, size_t n, size_t tiles, int chunks, size_t *cursor)
+int pm_tile_runs_init(struct pm_tile_runs *r, const struct pm_tile_finds *f, size_t n, size_t tiles, int chunks, size_t *cursor)
 {
 	*r = (struct pm_tile_runs){.all = n};
 	uint32_t *next = pm_zalloc((size_t)chunks * (tiles + 1), sizeof *next);
-	const int status = next ? make(r, tile, tiles + 1, chunks, cursor, next) : -PM_DATA;
+	const int status = next ? make(r, f, tiles + 1, chunks, cursor, next) : -PM_DATA;
 	pm_free(next);
 	return status;
 }
@@ -88,42 +101,107 @@ void pm_tile_runs_free(struct pm_tile_runs *r)
 	*r = (struct pm_tile_runs){.n = 0};
 }
 
-/* Those of one run, of all arrays in one loop, whose end a processor foresees wrong once. spare: there is room for whole lines here and there. */
-PM_SIMD_INLINE void copy(int n, size_t many, bool spare, const double *const from[], size_t at, double *const to[], size_t i)
+size_t pm_tile_runs_at(const struct pm_tile_runs *r, size_t p)
 {
-	const double *here[MOST];
-	double *there[MOST];
-	size_t k = 0;
+	const struct pm_tile_run *run = &r->run[pm_tile_run_of(r, p)];
+	return run->at + pm_simd_bit(run->members, p - run->from);
+}
+
+/* Those of a run that are among m from p on, i of which have been. */
+static uint64_t part_of(const struct pm_tile_run *run, size_t p, size_t m, size_t i)
+{
+	uint64_t members = run->members;
+	if (run->from < p + i)
+		members &= ~(uint64_t)0 << pm_simd_bit(members, p + i - run->from);
+	const size_t left = m - i;
+	if (pm_simd_bits_of_word(members) > left)
+		members &= ((uint64_t)1 << pm_simd_bit(members, left)) - 1;
+	return members;
+}
+
+/* Vector j of the 64, of all arrays; i: where the first goes to. */
+PM_SIMD_INLINE void take_some(int n, unsigned some, bool spare, const double *const from[], size_t at, double *const to[], size_t i)
+{
 	PM_SIMD_UNROLL
-	for (int c = 0; c < n; c++)
-		here[c] = from[c] + at, there[c] = to[c] + i;
-	for (; k + line <= many || (spare && k < many); k += line) {
-		PM_SIMD_UNROLL
-		for (int c = 0; c < n; c++)
-			memcpy(there[c] + k, here[c] + k, line * sizeof(double));
+	for (int c = 0; c < n; c++) {
+		const pm_simd v = pm_simd_pack(pm_simd_load_any(from[c] + at), some);
+		if (spare)
+			pm_simd_store_any(to[c] + i, v);
+		else
+			for (size_t l = 0; l < pm_simd_bits_of_byte(some); l++)
+				to[c][i + l] = v[l];
 	}
-	if (k < many && many >= line) { /* the last line, some of it a second time */
-		PM_SIMD_UNROLL
-		for (int c = 0; c < n; c++)
-			memcpy(there[c] + many - line, here[c] + many - line, line * sizeof(double));
-		return;
+}
+
+PM_SIMD_INLINE void put_some(int n, unsigned some, bool spare, const double *const from[], size_t i, double *const to[], size_t at)
+{
+	PM_SIMD_UNROLL
+	for (int c = 0; c < n; c++) {
+		pm_simd v = {0};
+		if (spare)
+			v = pm_simd_load_any(from[c] + i);
+		else
+			for (size_t l = 0; l < pm_simd_bits_of_byte(some); l++)
+				v[l] = from[c][i + l];
+		if (some == all_lanes)
+			pm_simd_store_any(to[c] + at, v);
+		else
+			pm_simd_unpack_to(to[c] + at, v, some);
 	}
-	for (; k < many; k++) {
+}
+
+PM_SIMD_INLINE void one_by_one(int n, bool put, uint64_t members, const double *const from[], double *const to[], size_t at, size_t i)
+{
+	for (; members; members &= members - 1, i++) {
+		const size_t stands = at + (size_t)__builtin_ctzll(members);
 		PM_SIMD_UNROLL
 		for (int c = 0; c < n; c++)
-			there[c][k] = here[c][k];
+			to[c][put ? stands : i] = from[c][put ? i : stands];
+	}
+}
+
+PM_SIMD_INLINE void all_of_them(int n, bool put, const double *const from[], double *const to[], size_t at, size_t i)
+{
+	for (size_t l = 0; l < PM_TILE_RUN; l += W) {
+		PM_SIMD_UNROLL
+		for (int c = 0; c < n; c++)
+			pm_simd_store_any(to[c] + (put ? at : i) + l, pm_simd_load_any(from[c] + (put ? i : at) + l));
+	}
+}
+
+/* The numbers of members of the 64 from `at` on; the others' places hold m, of which i have been. */
+PM_SIMD_INLINE void copy(int n, bool put, uint64_t members, const double *const from[], double *const to[], size_t at, size_t i, size_t m)
+{
+	const size_t first = (size_t)__builtin_ctzll(members) / W * W;
+	at += first, members >>= first;
+	for (; members; at += W) {
+		const unsigned some = (unsigned)members & all_lanes;
+		if (put)
+			put_some(n, some, i + W <= m, from, i, to, at);
+		else
+			take_some(n, some, i + W <= m, from, at, to, i);
+		i += pm_simd_bits_of_byte(some);
+		members >>= W;
 	}
 }
 
 PM_SIMD_INLINE void walk(int n, bool put, const struct pm_tile_runs *r, size_t p, size_t m, const double *const from[], double *const to[])
 {
+	const double *read[MOST];
+	double *write[MOST];
 	size_t i = 0;
+	PM_SIMD_UNROLL
+	for (int c = 0; c < n; c++)
+		read[c] = from[c], write[c] = to[c];
 	for (const struct pm_tile_run *run = &r->run[pm_tile_run_of(r, p)]; i < m; run++) {
-		const size_t at = run->at + (p + i - run->from), left = run[1].from - (p + i), many = left < m - i ? left : m - i;
-		if (put)
-			copy(n, many, false, from, i, to, at);
+		const uint64_t members = part_of(run, p, m, i);
+		const size_t many = pm_simd_bits_of_word(members);
+		if (many < few || run->at + PM_TILE_RUN > r->all)
+			one_by_one(n, put, members, read, write, run->at, i);
+		else if (many == PM_TILE_RUN)
+			all_of_them(n, put, read, write, run->at, i);
 		else
-			copy(n, many, i + many + line <= m && at + many + line <= r->all, from, at, to, i);
+			copy(n, put, members, read, write, run->at, i, m);
 		i += many;
 	}
 }
@@ -154,8 +232,8 @@ void pm_tile_runs_places(const struct pm_tile_runs *r, size_t p, size_t m, uint3
 {
 	size_t i = 0;
 	for (const struct pm_tile_run *run = &r->run[pm_tile_run_of(r, p)]; i < m; run++)
-		for (size_t end = run[1].from - p < m ? run[1].from - p : m; i < end; i++)
-			place[i] = run->at + (uint32_t)(p + i - run->from);
+		for (uint64_t members = part_of(run, p, m, i); members; members &= members - 1)
+			place[i++] = run->at + (uint32_t)__builtin_ctzll(members);
 }
 
 void pm_tile_runs_fetch(const struct pm_tile_runs *r, size_t p, size_t m, int n, const double *const from[])
@@ -163,6 +241,9 @@ void pm_tile_runs_fetch(const struct pm_tile_runs *r, size_t p, size_t m, int n,
 	if (p >= r->all)
 		return;
 	for (const struct pm_tile_run *run = &r->run[pm_tile_run_of(r, p) + 1]; run->from < p + m && run->from < r->all; run++)
-		for (int c = 0; c < n; c++)
-			__builtin_prefetch(from[c] + run->at);
+		for (int c = 0; c < n; c++) {
+			const double *at = from[c] + run->at;
+			if (pm_simd_bits_of_word(run->members) < few)
+				__builtin_prefetch(at + __builtin_ctzll(run->members));
+		}
 }

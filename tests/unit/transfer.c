@@ -1092,8 +1092,8 @@ int main(void)
 	check_floats(3, (const size_t[]){35, 20, 33}, 30003);
 	check_one_number(2, (const size_t[]){130, 67, 1}, 5001, "tsc");
 	check_one_number(3, (const size_t[]){35, 20, 33}, 30003, "cic");
-	check_kept(1, (const size_t[]){9001, 1, 1}, "tsc");
-	check_kept(2, (const size_t[]){130, 67, 1}, "pcs");
+	check_kept(1, (const size_t[]){40961, 1, 1}, "tsc");
+	check_kept(2, (const size_t[]){270, 131, 1}, "pcs");
 	check_kept(3, (const size_t[]){35, 20, 33}, "tsc");
 	check_formula(1, (const size_t[]){13, 1, 1}, 40);
 	check_formula(1, (const size_t[]){2, 1, 1}, 20);
