@@ -338,8 +338,8 @@ PM_SIMD_INLINE size_t pm_simd_bit(uint64_t bits, size_t k)
 #endif
 }
 
-/* The lanes whose bits are set, one behind the other, from the first on; what is in the others is left open. And the first ones of v to those of to[] whose
- * bits are set, of which the others are not touched. */
+/* The lanes whose bits are set, one behind the other, from the first on; what is in the others is left open. And back: the first lanes
+ * of v to the places of to[] whose bits are set; the others are not touched. */
 PM_SIMD_INLINE pm_simd pm_simd_pack(pm_simd v, unsigned some)
 {
 #if defined __AVX512F__

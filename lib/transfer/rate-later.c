@@ -133,8 +133,7 @@ static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *s
 	for (int c = 0; c < t->components && yes; c++)
 		yes = t->set[c] && a->times[c].doubles == a->times[0].doubles && !a->times[c].floats &&
 			!memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]);
-	const struct pm_order_cache *o = yes ? order_of(t, t->kept, x) : NULL;
-	return o != NULL;
+	return yes && order_of(t, t->kept, x);
 }
 
 int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left)

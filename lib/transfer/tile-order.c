@@ -1,7 +1,7 @@
 /* A stable counting sort of particles into tiles of cells: count per chunk of the stream, add up, move the records. Stability makes the result
  * independent of the number of chunks, which is the number of threads. Particles that are already in the order of tiles are not moved, and of those that
  * nearly are only the runs are sorted (tile-runs.h).
- * Cost: two passes over the positions, one over the rest.
+ * Cost: two to four passes over the positions, one over the rest.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
@@ -194,8 +194,9 @@ static void any_tiles(const struct pm_tile_order *o, const struct pm_axis_lanes 
 }
 
 /* Counts the tiles of a chunk, and finds its runs; false where there are too many for particles to stay. */
-static bool find_chunk(struct pm_tile_order *o, int chunk, size_t stays, struct pm_tile_finds *f, struct pm_strays *strays)
+static bool find_chunk(struct pm_tile_order *o, int chunk, size_t stays, struct pm_tile_finds *finds, struct pm_strays *strays)
 {
+	struct pm_tile_finds mine = *finds, *const f = &mine; /* those of other threads lie in the same line of the cache */
 	size_t *count = o->cursor + (size_t)(chunk + 1) * (o->tiles + 1);
 	struct pm_axis_lanes lanes[3];
 	uint32_t tile[batch];
@@ -214,6 +215,7 @@ static bool find_chunk(struct pm_tile_order *o, int chunk, size_t stays, struct 
 		if (f->eights > begun + (p + m - from) / PM_TILE_RUN * stays)
 			return false;
 	}
+	*finds = mine;
 	return true;
 }
 

@@ -1,7 +1,7 @@
-/* Runs of a stream that is nearly in the order of tiles: of each 64 particles those of one tile are a run, whatever stands between them, so that most
+/* Runs of a stream that is nearly in the order of tiles: of each 64 particles in a row those of one tile are a run, with others between or not, so that most
  * particles go by whole registers, from which the others are left out. The runs of each tile by a stable counting sort. Stability makes the order
  * independent of the number of chunks, though 64 that go over the end of a chunk are two.
- * Cost: a pass over the tiles, and one over the runs. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: a pass over 64 tiles for each run among them, and two over the runs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "transfer/tile-runs.h"
@@ -119,7 +119,8 @@ static uint64_t part_of(const struct pm_tile_run *run, size_t p, size_t m, size_
 	return members;
 }
 
-/* Vector j of the 64, of all arrays; i: where the first goes to. */
+/* Those of one register at `at`, of all arrays; i: where the first goes to. Lanes of others may be written by other threads meanwhile, and are thrown away.
+ * spare: a whole register has room there. */
 PM_SIMD_INLINE void take_some(int n, unsigned some, bool spare, const double *const from[], size_t at, double *const to[], size_t i)
 {
 	PM_SIMD_UNROLL
@@ -196,7 +197,7 @@ PM_SIMD_INLINE void walk(int n, bool put, const struct pm_tile_runs *r, size_t p
 	for (const struct pm_tile_run *run = &r->run[pm_tile_run_of(r, p)]; i < m; run++) {
 		const uint64_t members = part_of(run, p, m, i);
 		const size_t many = pm_simd_bits_of_word(members);
-		if (many < few || run->at + PM_TILE_RUN > r->all)
+		if (many < few || (size_t)run->at + PM_TILE_RUN > r->all)
 			one_by_one(n, put, members, read, write, run->at, i);
 		else if (many == PM_TILE_RUN)
 			all_of_them(n, put, read, write, run->at, i);

@@ -1,5 +1,5 @@
-/* Particles that stay in the stream, in the order of tiles: runs of those of a tile among 64 that stand there one behind the other. For lib/transfer and
- * lib/current. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particles that stay in the stream, in the order of tiles: of each 64 in a row, those of one tile are a run, with others between them or not. For
+ * lib/transfer and lib/current. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_TILE_RUNS_H
 #define PM_TRANSFER_TILE_RUNS_H
 
@@ -29,7 +29,7 @@ struct pm_tile_found {
 struct pm_tile_finds {
 	struct pm_tile_found *found; /* [room] */
 	size_t n, room;
-	size_t eights; /* of 8 particles one behind the other, all that a run has some of */
+	size_t eights; /* of a run: how many of its eight lots of 8 particles in a row have some of it; summed over the runs */
 };
 /* Those of m <= 64 particles from `at` on, in tiles tile[m]. False: there is no room. */
 bool pm_tile_runs_find(struct pm_tile_finds *f, size_t at, size_t m, const uint32_t *tile);
@@ -39,7 +39,7 @@ bool pm_tile_runs_find(struct pm_tile_finds *f, size_t at, size_t m, const uint3
 int pm_tile_runs_init(struct pm_tile_runs *r, const struct pm_tile_finds *f, size_t n, size_t tiles, int chunks, size_t *cursor);
 void pm_tile_runs_free(struct pm_tile_runs *r);
 
-/* The run of particle p of the order, and where p stands. */
+/* The run of particle p of the order, p < all, and where p stands. */
 static inline size_t pm_tile_run_of(const struct pm_tile_runs *r, size_t p)
 {
 	size_t k = r->of[p / PM_TILE_RUN];
@@ -59,7 +59,7 @@ void pm_tile_runs_take(const struct pm_tile_runs *r, size_t p, size_t m, int n, 
 void pm_tile_runs_put(const struct pm_tile_runs *r, size_t p, size_t m, int n, const double *const from[], double *const to[]);
 /* Where each stands. */
 void pm_tile_runs_places(const struct pm_tile_runs *r, size_t p, size_t m, uint32_t *place);
-/* Fetches what is taken of those. */
+/* Fetches the first of each run of a few that begins behind p, among those. */
 void pm_tile_runs_fetch(const struct pm_tile_runs *r, size_t p, size_t m, int n, const double *const from[]);
 
 #endif
