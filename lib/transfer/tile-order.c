@@ -7,8 +7,8 @@
 
 #include "transfer/tile-order.h"
 
-/* ahead: the place of a later record is prefetched; line: doubles per cache line */
-enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, begun = 256 /* eights before it is asked whether there are too many */ };
+/* ahead: the place of a later record is prefetched; line: doubles per cache line; many: a change of tile in fewer particles takes longer than these alone */
+enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, many = 16, begun = 256 /* eights before it is asked whether there are too many */ };
 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk); }
 static size_t chunk_to(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk + 1); }
@@ -219,6 +219,29 @@ static bool find_chunk(struct pm_tile_order *o, int chunk, size_t stays, struct 
 	return true;
 }
 
+/* How many of the m particles behind the one at tile[0] have another tile than the one before. */
+static size_t changes_of(const uint32_t *tile, size_t m)
+{
+	uint32_t changes = 0;
+	for (size_t i = 0; i < m; i++)
+		changes += tile[i] != tile[i + 1];
+	return changes;
+}
+
+/* The first particle behind i, before end, in another tile; or end. */
+static size_t other(const uint32_t *tile, size_t i, size_t end)
+{
+	const int32_t here = (int32_t)tile[i++];
+	for (; i + PM_SIMD_WIDTH <= end; i += PM_SIMD_WIDTH) {
+		const unsigned others = pm_simd_int_others(*(const pm_simd_int_at *)(tile + i), here);
+		if (others)
+			return i + (size_t)__builtin_ctz(others);
+	}
+	while (i < end && (int32_t)tile[i] == here)
+		i++;
+	return i;
+}
+
 /* Counts, and keeps the tile of each. */
 static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *strays)
 {
@@ -231,8 +254,11 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		const size_t m = to - p < batch ? to - p : batch;
 		any_tiles(o, lanes, p, m, o->tile + p, strays);
-		for (size_t i = p; i < p + m; i++)
-			count[o->tile[i]]++;
+		const bool runs = changes_of(o->tile + p, m - 1) <= m / many;
+		for (size_t i = p, end; i < p + m; i = end) { /* a counter that is raised one by one waits for itself */
+			end = runs ? other(o->tile, i, p + m) : i + 1;
+			count[o->tile[i]] += end - i;
+		}
 	}
 }
 
@@ -538,19 +564,19 @@ static int find_runs(struct pm_tile_order *o, size_t stays, struct pm_strays *ea
 	const size_t room = begun + batch + (most / PM_TILE_RUN + 1) * stays; /* a run has an eight or more */
 	struct pm_tile_finds *f = pm_alloc((size_t)o->chunks, sizeof *f);
 	struct pm_tile_found *found = pm_alloc((size_t)o->chunks * room, sizeof *found);
-	int many = 0, status = f && found ? 0 : -PM_DATA;
-#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : many) if (!status)
+	int moved = 0, status = f && found ? 0 : -PM_DATA;
+#pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : moved) if (!status)
 	for (int chunk = 0; chunk < (status ? 0 : o->chunks); chunk++) {
 		f[chunk] = (struct pm_tile_finds){.found = found + (size_t)chunk * room, .room = room};
-		many |= !find_chunk(o, chunk, stays, &f[chunk], &each[chunk]);
+		moved |= !find_chunk(o, chunk, stays, &f[chunk], &each[chunk]);
 	}
-	if (!status && !many) {
+	if (!status && !moved) {
 		add_up(o);
 		status = pm_tile_runs_init(&o->runs, f, o->n, o->tiles, o->chunks, o->cursor + columns);
 		add_strays(o->chunks, each, strays);
 	}
 	pm_free(found), pm_free(f);
-	return status ? status : !many;
+	return status ? status : !moved;
 }
 
 /* The tiles of a stream in any order, and its records in theirs. */
