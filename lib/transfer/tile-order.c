@@ -254,11 +254,14 @@ static void count_chunk(struct pm_tile_order *o, int chunk, struct pm_strays *st
 	for (size_t p = chunk_from(o, chunk), to = chunk_to(o, chunk); p < to; p += batch) {
 		const size_t m = to - p < batch ? to - p : batch;
 		any_tiles(o, lanes, p, m, o->tile + p, strays);
-		const bool runs = changes_of(o->tile + p, m - 1) <= m / many;
-		for (size_t i = p, end; i < p + m; i = end) { /* a counter that is raised one by one waits for itself */
-			end = runs ? other(o->tile, i, p + m) : i + 1;
-			count[o->tile[i]] += end - i;
-		}
+		if (changes_of(o->tile + p, m - 1) > m / many)
+			for (size_t i = p; i < p + m; i++)
+				count[o->tile[i]]++;
+		else
+			for (size_t i = p, end; i < p + m; i = end) { /* a counter that is raised one by one waits for itself */
+				end = other(o->tile, i, p + m);
+				count[o->tile[i]] += end - i;
+			}
 	}
 }
 
