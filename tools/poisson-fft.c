@@ -103,8 +103,8 @@ static struct pm_poisson_fft *ready(struct pm_stage *s, struct state *t, const s
 	return solver;
 }
 
-/* One component, and what was removed from its source. */
-static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_fft_plans **plans)
+/* One component, and what was removed from its source. most is raised to its largest absolute value, or is NAN: not known. */
+static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct pm_fft_plans **plans, double *most)
 {
 	struct state *t = s->state;
 	const struct pm_problem *p = &t->problem;
@@ -123,6 +123,7 @@ static int component(struct pm_stage *s, struct pm_frame *f, int c, const struct
 	*plans = pm_poisson_fft_planner(solver);
 	if (!status && pm_poisson_fft_singular(&g, &t->choice))
 		pm_solver_report_removed(s, f, p, c, r.mean, &m, r.incompatible);
+	*most = p->given.any || isnan(r.most) ? NAN : r.most > *most ? r.most : *most;
 	if (t->choice.wave > 0)
 		pm_report(s, f, "resonance_distance", pm_poisson_fft_distance(solver));
 	pm_homogeneous_close(&m, pm_out(p->target, c));
@@ -136,12 +137,15 @@ static int frame(struct pm_stage *s, struct pm_frame *f)
 	struct pm_planes planes;
 	int status = pm_world_agree(pm_planes_init(&planes, &t->problem.grid, t->problem.source));
 	t->choice.planes = &planes;
+	double most = 0;
 	for (int c = 0; c < t->problem.source->components && !status; c++)
-		status = component(s, f, c, &p);
+		status = component(s, f, c, &p, &most);
 	t->choice.planes = NULL;
 	pm_planes_free(&planes);
 	if (status)
 		return status;
+	t->problem.target->use |= isfinite(most) ? PM_USE_SEEN : 0;
+	t->problem.target->within = isfinite(most) && pm_world_alone() ? most : 0;
 	char plan[16]; /* our own transforms are the same on all machines */
 	snprintf(plan, sizeof plan, p && p->n ? "fftw %08x" : "own", p ? p->sum : 0);
 	pm_report_text(s, f, "plan", plan);

@@ -290,7 +290,7 @@ static int project_differences(struct pm_maxwell_job *j, double *psi, struct pm_
 {
 	struct pm_grid g = j->yee.grid;
 	const struct pm_poisson_fft_choice choice = {.symbol = PM_FD2, .planes = j->yee.planes};
-	struct pm_poisson_fft_record record = {0, 0};
+	struct pm_poisson_fft_record record = {0};
 	for (int d = 0; d < g.dim; d++)
 		for (int s = 0; s < 2; s++)
 			g.face[d][s] = pm_yee_open(g.face[d][s]) ? PM_WALL : g.face[d][s];

@@ -1,6 +1,6 @@
 /* A gradient by differences that is left to be made. Every node of a periodic box has the same pairs of nodes; elsewhere, and by transforms, it is made at
  * once.
- * Cost: a pass over the potential, for its largest value. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: a pass over the potential, for its largest value where that is not known. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -110,17 +110,20 @@ int pm_gradient_leave(struct pm_gradient *t, bool *left)
 	if (!l)
 		return pm_no_memory();
 	l->later.make = make, l->operator = t->operator, l->factor = t->factor;
-	double weights = 0;
+	double weights = 0, square = 0;
 	for (int d = 0; d < 3; d++) {
+		double sum = 0;
 		pm_operator_pairs(&t->operator, d, t->factor, l->weight[d]);
 		for (int k = 0; k < t->operator.order / 2; k++)
-			weights = fmax(weights, fabs(l->weight[d][k]));
+			weights = fmax(weights, fabs(l->weight[d][k])), sum += 2 * fabs(l->weight[d][k]);
+		square += sum * sum;
 	}
-	const double most = pm_largest(pm_grid_size(&t->operator.grid), pm_in(t->source, 0));
+	const double most = t->source->within > 0 ? t->source->within : pm_largest(pm_grid_size(&t->operator.grid), pm_in(t->source, 0));
 	if (!(fmax(weights, 1) * most < DBL_MAX / 8)) { /* differences of two, sums of three */
 		free(l);
 		return 0;
 	}
+	l->within = sqrt(square) * most * (1 + 1e-9);
 	*left = true;
 	return pm_field_later(t->target, &l->later, t->source);
 }

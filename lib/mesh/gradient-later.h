@@ -10,12 +10,13 @@ struct pm_gradient_later {
 	struct pm_later later; /* first member */
 	struct pm_operator operator;
 	double factor;
+	double within;       /* no |gradient| is larger; from the largest potential */
 	double weight[3][3]; /* [component][pair]: sum over pairs of weight (value so far up that axis - value so far down) is the component at every node */
 };
 
 /* In frame(): leaves the target to be made, in a periodic box in space where no value can be infinite; *left false: it does not. 0 or failure. */
 int pm_gradient_leave(struct pm_gradient *t, bool *left);
-double pm_gradient_later_most(const struct pm_gradient_later *l);                   /* the largest |gradient| of all nodes, or a little more */
+double pm_gradient_later_most(const struct pm_gradient_later *l);                   /* the largest |gradient| of all nodes, or a little more: a pass */
 const struct pm_gradient_later *pm_gradient_later_of(const struct pm_field *field); /* NULL: its values are there, or of another kind */
 
 #endif

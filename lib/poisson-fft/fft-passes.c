@@ -153,7 +153,25 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 	return largest;
 }
 
-static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
+/* The largest absolute value of n rows of a block, of the first lines alone; INFINITY where one is not finite. */
+static double most_of(const double *block, size_t n, size_t lines)
+{
+	enum { PARTS = L / PM_SIMD_PART };
+	pm_simd_part most[PARTS] = {{0}}, none[PARTS] = {{0}};
+	double all = 0;
+	for (size_t i = 0; i < n; i++)
+		PM_SIMD_UNROLL
+		for (size_t part = 0; part < PARTS; part++) {
+			const pm_simd_part v = *(const pm_simd_part_at *)(block + i * L + part * PM_SIMD_PART);
+			most[part] = larger(most[part], v), none[part] += v - v;
+		}
+	for (size_t q = 0; q < lines; q++)
+		all = none[q / PM_SIMD_PART][q % PM_SIMD_PART] == 0 ? fmax(all, most[q / PM_SIMD_PART][q % PM_SIMD_PART]) : INFINITY;
+	return all;
+}
+
+/* Modes to nodes. Returns the largest absolute value; INFINITY where one is not finite. */
+static double rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
 {
 	const struct pm_transform *l = &p->line[X];
 	const double *in[L];
@@ -170,6 +188,7 @@ static void rows_backward(const struct pm_poisson_fft *p, const struct rows *io,
 	pm_fft_rows_out(s.block + l->row * L, NULL, p->nodes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows && p->streams; r++)
 		pm_stream(io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
+	return most_of(s.block + l->row * L, p->nodes[X], g->rows);
 }
 
 /* n rows of a block, as at[] has them, from and to memory. */
@@ -309,7 +328,7 @@ static double plane_forward(const struct pm_poisson_fft *p, const struct rows *i
 	return largest;
 }
 
-static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
+static double plane_backward(const struct pm_poisson_fft *p, const struct rows *io, size_t k, struct scratch s)
 {
 	const struct plane here = {s.modes, p->row}, w = {p->w + k * p->row, p->slab};
 	const bool direct = p->complex && !p->streams;
@@ -321,10 +340,12 @@ static void plane_backward(const struct pm_poisson_fft *p, const struct rows *io
 		complex_columns(p, here, direct ? w : here, false, s.block);
 	else
 		real_columns(p, s.modes, false, s.block);
+	double largest = 0;
 	for (size_t j = 0; j < p->nodes[Y]; j += L) {
 		struct group g = group_of(p, k, j);
-		rows_backward(p, io, &g, s, s.modes + j * p->row);
+		largest = fmax(largest, rows_backward(p, io, &g, s, s.modes + j * p->row));
 	}
+	return largest;
 }
 
 double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward)
@@ -341,11 +362,11 @@ double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *
 		if (plane && forward)
 			largest = fmax(largest, plane_forward(p, io, i, s));
 		else if (plane)
-			plane_backward(p, io, i, s);
+			largest = fmax(largest, plane_backward(p, io, i, s));
 		else if (forward)
 			largest = fmax(largest, rows_forward(p, io, &g, s, p->w + (g.k - p->zfirst) * p->row));
 		else
-			rows_backward(p, io, &g, s, p->w + (g.k - p->zfirst) * p->row);
+			largest = fmax(largest, rows_backward(p, io, &g, s, p->w + (g.k - p->zfirst) * p->row));
 		pm_stream_end();
 	}
 	return largest;

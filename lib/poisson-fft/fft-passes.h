@@ -63,7 +63,7 @@ static inline size_t pm_poisson_fft_multipliers(const struct pm_poisson_fft *p)
 	return (p->modes[X] + lanes - 1) / lanes * lanes;
 }
 
-/* Forward it returns the largest absolute source of a singular problem. */
+/* Returns the largest absolute value: forward of the source, for a singular problem, back of the solution, INFINITY where one is not finite. */
 double pm_poisson_fft_planes(const struct pm_poisson_fft *p, const struct rows *io, bool forward);
 /* Forward along z, times factor/lambda or factor*green, and back. pencils: NULL, or those of this rank, of pm_poisson_fft_to_pencils. */
 void pm_poisson_fft_pencils(struct pm_poisson_fft *p, double factor, double *pencils);

@@ -117,17 +117,19 @@ static int along_z(int status, struct pm_poisson_fft *p, double factor)
 
 static void record(const struct pm_poisson_fft *p, double norm, double largest, struct pm_poisson_fft_record *r)
 {
-	if (p->singular && r)
-		*r = (struct pm_poisson_fft_record){.mean = p->zero * norm, .incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0};
+	if (p->singular)
+		r->mean = p->zero * norm, r->incompatible = largest > 0 ? fabs(p->zero * norm) / largest : 0;
 }
 
 int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, double *phi, struct pm_poisson_fft_record *r)
 {
-	if (r)
-		*r = (struct pm_poisson_fft_record){0};
+	struct pm_poisson_fft_record none;
+	r = r ? r : &none;
+	*r = (struct pm_poisson_fft_record){.most = NAN};
 	if (p->james)
 		return pm_fft_james_solve(p->james, c, s, phi);
 	if (p->empty) {
+		r->most = 0;
 		memset(phi, 0, pm_grid_size(&p->grid) / (p->grid.dim == 1 ? 1 : p->grid.points[p->grid.dim - 1]) * p->planes * sizeof *phi);
 		return 0;
 	}
@@ -151,7 +153,7 @@ int pm_poisson_fft_solve(struct pm_poisson_fft *p, double c, const double *s, do
 	status = along_z(status, p, c * norm);
 	if (status)
 		return status;
-	pm_poisson_fft_planes(p, &io, false);
+	r->most = pm_poisson_fft_planes(p, &io, false);
 	zero_walls(p, phi);
 	record(p, norm, largest, r);
 	return 0;

@@ -48,10 +48,11 @@ struct pm_poisson_fft *pm_poisson_fft_free(struct pm_poisson_fft *p);
 double pm_poisson_fft_distance(const struct pm_poisson_fft *p);
 const struct pm_fft_plans *pm_poisson_fft_planner(const struct pm_poisson_fft *p);
 
-/* The mean removed from a singular problem; 0, 0 for others. */
+/* The mean removed from a singular problem; 0, 0 for others. And how large phi is. */
 struct pm_poisson_fft_record {
 	double mean;         /* of s, end nodes with half weight: taken out; phi has mean zero */
 	double incompatible; /* |mean| over the largest |s|: round-off where the data fit the faces */
+	double most;         /* of this rank's |phi|; NAN: not known; INFINITY: not all are finite */
 };
 
 /* s and phi: the points of the grid; they may be the same array. c [phi/(s length^2)]. r may be NULL. */

@@ -52,7 +52,7 @@ int pm_moving_stable(const struct pm_frame *f, const struct pm_moving *m, const 
 		return 0;
 	for (int r = 0; r < m->n && !status; r++) {
 		const struct pm_rate *rate = m->rates + r;
-		struct pm_limits l = rate->rate->role == PM_CHANGE ? pm_limits_most(rate->rate) : (struct pm_limits){0};
+		struct pm_limits l = rate->rate->role == PM_CHANGE ? pm_limits_most(rate->rate, turn / s.part) : (struct pm_limits){0};
 		if (s.part * l.oscillation > turn)
 			l = pm_limits_of(rate->rate);
 		status = within(rate, "decays", l.decay, decay, &s);

@@ -21,7 +21,8 @@ struct pm_later {
 	int (*make)(const struct pm_later *later, double *to); /* all values, component by component, all finite; 0 or failure. Also says what kind it is */
 	void (*free)(struct pm_later *later); /* what it holds beside `from`; NULL: nothing */
 	double (*oscillation)(const struct pm_later *later, const double *values); /* [1/time] a limit (limits.h) that only the values tell; NULL: none */
-	double most; /* [1/time] the limit is not above it; 0: not known */
+	/* [1/time] The limit is not above it; need not be near it where it is not above enough. 0: not known; NULL: no limit is. */
+	double (*most)(const struct pm_later *later, double enough);
 	const struct pm_kicks *kicks; /* NULL: no velocities */
 	/* The same of particles in another order (reorder.h), but for `from`, which it leaves NULL; NULL: failure. If it is NULL, the values are made. */
 	struct pm_later *(*reorder)(const struct pm_later *later, struct pm_reorder *r);

@@ -36,13 +36,14 @@ struct pm_limits pm_limits_of(const struct pm_field *change)
 	return all;
 }
 
-struct pm_limits pm_limits_most(const struct pm_field *change)
+struct pm_limits pm_limits_most(const struct pm_field *change, double enough)
 {
 	const struct pm_later *later = pm_field_later_of(change);
-	if (!later || !(later->most > 0))
+	const double most = later && later->most ? later->most(later, enough) : 0;
+	if (!(most > 0))
 		return pm_limits_of(change); /* where they are left, makes them */
 	struct pm_limits all = change->limits;
-	all.oscillation = fmax(all.oscillation, later->most);
+	all.oscillation = fmax(all.oscillation, most);
 	return all;
 }
 

@@ -12,8 +12,9 @@ enum { PM_LIMITS_KEY = 2 * PM_NAME };
 /* One more contribution: decays add, of the others the largest counts; what is not finite or not above 0 is left out. */
 void pm_limits_add(struct pm_field *change, struct pm_limits more);
 struct pm_limits pm_limits_of(const struct pm_field *change); /* with `fastest` */
-/* The same, but of rates that are left to be made (they are new, and have no `fastest`): no less. Makes none. */
-struct pm_limits pm_limits_most(const struct pm_field *change);
+/* The same, but of rates that are left to be made (they are new, and have no `fastest`): no less, and near where the oscillation is above `enough`. Makes
+ * none. */
+struct pm_limits pm_limits_most(const struct pm_field *change, double enough);
 
 /* For readers and writers of frames. */
 void pm_limits_key(const struct pm_field *field, char key[PM_LIMITS_KEY]);         /* owner/name */

@@ -1,7 +1,7 @@
 /* The force of a mesh left to be made: the field and the positions are held as they are. A push that kicks and moves has it gathered for a few particles at a
  * time, whose positions and velocities it changes at once, so that the rates are never in memory; where somebody asks for them they are gathered as a whole.
  * The limit of orbits (rates.h), which only the rates tell, is found then; until then it is known not to be above that of the largest field on the mesh.
- * Cost: a pass over the field, for its largest value. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: a pass over the field, for its largest value, where that is not known well enough. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ struct pm_rate_left {
 	struct pm_field *mesh;            /* the field, as it is */
 	struct pm_field *charge, *mass;   /* whose quotient the field is times, particle by particle; NULL: `factor` for all */
 	double factor, pull;
-	double most;                      /* of |rate| */
+	double most, times;               /* of |rate|; of the particles' |factor| */
 	int dim;
 };
 
@@ -91,16 +91,17 @@ const struct pm_rate_left *pm_rate_left_of(const struct pm_field *rate)
 
 double pm_rate_left_most(const struct pm_rate_left *l) { return l->most; }
 
-/* The largest |field| of the nodes, and no less than that of a kernel's sums. */
-static double largest(const struct pm_rate_left *l, size_t points)
+/* The largest |field| of the nodes, and no less than that of a kernel's sums. near: by a pass where it need not be one. */
+static double largest(const struct pm_rate_left *l, bool near)
 {
+	const size_t points = pm_grid_size(&l->t.grid);
 	struct pm_transfer t;
 	const double *mesh[PM_COMPONENTS];
 	double most = 0;
 	const double sums = l->t.kernel->positive ? 1 + 1e-9 : 8; /* the sizes of weights whose sum is 1 add up to 1.6 at most on an axis */
 	look_at_mesh(l, &t, mesh);
 	if (t.gradient)
-		return sums * pm_gradient_later_most(t.gradient);
+		return sums * (near ? pm_gradient_later_most(t.gradient) : t.gradient->within);
 #pragma omp parallel for schedule(static) reduction(max : most) if (points > pm_many_turns())
 	for (size_t i = 0; i < points; i++) {
 		double square = 0;
@@ -109,6 +110,13 @@ static double largest(const struct pm_rate_left *l, size_t points)
 		most = square > most ? square : most;
 	}
 	return sums * sqrt(most);
+}
+
+static double most(const struct pm_later *later, double enough)
+{
+	const struct pm_rate_left *l = (const struct pm_rate_left *)later;
+	const double far = sqrt(pm_orbit_rate(l->dim, l->most, l->pull));
+	return far > enough ? sqrt(pm_orbit_rate(l->dim, l->times * largest(l, true), l->pull)) : far;
 }
 
 static struct pm_order_cache *order_of(const struct pm_transfer *t, struct pm_note **kept, const struct pm_field *x)
@@ -155,9 +163,9 @@ int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	double range[2] = {l->factor, l->factor};
 	if (ratio)
 		pm_ratio_range(f, set, q, m, ratio, range);
-	l->most = fmax(fabs(range[0]), fabs(range[1])) * largest(l, pm_grid_size(&l->t.grid));
-	l->later.most = sqrt(pm_orbit_rate(l->dim, l->most, l->pull));
-	l->later.oscillation = l->later.most > 0 ? oscillation : NULL; /* on a line none */
+	l->times = fmax(fabs(range[0]), fabs(range[1])), l->most = l->times * largest(l, false);
+	if (pm_orbit_rate(l->dim, l->most, l->pull) > 0) /* on a line none */
+		l->later.most = most, l->later.oscillation = oscillation;
 	if (!(l->most < 1e100)) { /* not: the squares may have been infinite */
 		pm_later_free(&l->later);
 		return 0;

@@ -1,5 +1,6 @@
 /* density_i = sum over the sets and their particles of strength_p W((x_p - x_i)/h) / (volume of a cell), on one mesh or on two interlaced ones, plus the law's
  * uniform background (the ions of a plasma of electrons). Cost: one spread a set. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 
 #include "mesh/planes.h"
@@ -169,6 +170,23 @@ void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)
 		pm_out(density, 0)[i] += background;
 }
 
+/* Sums of so many equal strengths are finite whatever the weights, which are 1 at most, and the images of walls. */
+static bool surely_finite(const struct pm_spread_job *j, const struct pm_frame *f)
+{
+	const struct pm_grid g = pm_grid_of(f, j->mesh);
+	double most = 0, volume = 1;
+	for (int d = 0; d < f->dim; d++)
+		volume *= g.h[d];
+	for (size_t i = 0; i < j->sets.n; i++) {
+		const struct pm_field *q = pm_frame_field(f, j->sets.name[i], j->strength);
+		for (int c = 0; c < q->components; c++)
+			most += (double)pm_frame_set(f, j->sets.name[i])->n * (q->uniform && q->extensive ? fabs(q->value[c]) : INFINITY);
+	}
+	if (j->law->background)
+		most += fabs(pm_frame_constant(f, j->law->background, 0)) * fmax(volume, 1);
+	return !j->choice.interlace && !j->choice.add && most / fmin(volume, 1) < 1e300;
+}
+
 int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_plans *plans, uint64_t *outside)
 {
 	int status = j->grow ? pm_spread_grow(j, f) : 0;
@@ -178,7 +196,9 @@ int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_pla
 		status = pm_spread_set(j, f, j->sets.name[i], plans, &left_out);
 		*outside += left_out;
 	}
-	if (!status)
-		pm_spread_background(j, f);
-	return status;
+	if (status)
+		return status;
+	pm_spread_background(j, f);
+	pm_frame_field(f, j->mesh->name, j->density)->use |= surely_finite(j, f) ? PM_USE_SEEN : 0;
+	return 0;
 }

@@ -65,6 +65,17 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[ "$(stab - <a | p2m -n 8 | mesh)" = "0 0 2 2 0 1 1 0 0" ]
 }
 
+@test "p2m: a density that is not finite is refused, of equal strengths too, whose sums are known without a look" {
+	pinit uniform -n 1000 --cells 8 | smove --scale mass=1e306 >large # 1e303 each, 512 cells in the unit box
+	for kernel in cic m6prime; do
+		p2m --kernel $kernel <large | sls | grep -q rho
+		run -3 bash -o pipefail -c "smove --scale mass=1e4 <large | p2m --kernel $kernel >/dev/null"
+		[[ $output == *"'rho' of 'mesh' is not finite"* ]]
+	done
+	run -3 bash -o pipefail -c 'smove --scale mass=1e4 <large | scalc --set matter --role state --extensive "mass = mass + 0*id" | p2m >/dev/null'
+	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
+}
+
 @test "p2m takes every set that has the strength, or the one named" {
 	printf "$two" | stab - --law gravity --box 0,4 -n 8 >a
 	printf 'x mass\n2.0 8\n' | stab - --set heavy --law gravity --box 0,4 -n 8 >b

@@ -131,6 +131,12 @@ static void gathered(const size_t cells[3], int order)
 	begin(&p, cells, PM_PERIODIC, order, 1);
 	check(!pm_gradient_leave(&p.gradient, &left) && left && pm_gradient_later_of(p.gradient.target), "%zux%zux%zu, order %d: it is left to be made",
 		cells[0], cells[1], cells[2], order);
+	const struct pm_gradient_later *l = pm_gradient_later_of(p.gradient.target);
+	double largest = 0, most = pm_gradient_later_most(l);
+	for (size_t i = 0; i < p.points; i++)
+		largest = fmax(largest, sqrt(pow(p.at_once[0][i], 2) + pow(p.at_once[1][i], 2) + pow(p.at_once[2][i], 2)));
+	check(largest <= most && most < largest * (1 + 1e-8) && l->within >= largest, "the largest gradient is %g, by a pass %g, by the largest potential %g",
+		largest, most, l->within);
 	for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
 		same &= equal(&p, MOST, kernels[k]) && equal(&p, 90, kernels[k]);
 	check(same, "what m2p makes of the potential has the bytes of what it reads");

@@ -56,7 +56,7 @@ static struct pm_grid mesh(int dim, size_t n, const enum pm_face face[2])
 
 static double solve(const struct pm_grid *g, const struct pm_poisson_fft_choice *o, const double *s, double *phi)
 {
-	struct pm_poisson_fft_record r = {NAN, NAN};
+	struct pm_poisson_fft_record r = {NAN, NAN, NAN};
 	struct pm_poisson_fft *p = pm_poisson_fft_new(g, o);
 	if (!p || pm_poisson_fft_solve(p, -1.3, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());

@@ -32,13 +32,24 @@ static double *noise(size_t n)
 
 static double removed; /* of the last solve: |mean| over the largest |s| */
 
+/* The largest |phi| is known from the last pass, but on a line. */
+static bool most_is(double most, const struct pm_grid *g, const double *phi)
+{
+	double largest = 0;
+	for (size_t i = 0; i < pm_grid_size(g); i++)
+		largest = isfinite(phi[i]) ? fmax(largest, fabs(phi[i])) : INFINITY;
+	return isnan(most) ? g->dim == 1 : most == largest;
+}
+
 static double solve(const struct pm_grid *g, enum pm_symbol symbol, double c, const double *s, double *phi)
 {
-	struct pm_poisson_fft_record r = {NAN, NAN};
+	struct pm_poisson_fft_record r = {NAN, NAN, NAN};
 	struct pm_poisson_fft *p = pm_poisson_fft_new(g, &(struct pm_poisson_fft_choice){.symbol = symbol});
 	if (!p || pm_poisson_fft_solve(p, c, s, phi, &r))
 		check(false, "the solver runs (%s)", pm_message());
 	pm_poisson_fft_free(p);
+	if (!most_is(r.most, g, phi))
+		check(false, "dim %d, %zux%zux%zu: the largest |phi| is %g", g->dim, g->cells[0], g->cells[1], g->cells[2], r.most);
 	removed = r.incompatible;
 	return r.mean;
 }
@@ -502,8 +513,29 @@ static void refusals(void)
 	check(pm_poisson_fft_check(&open, &(struct pm_poisson_fft_choice){.symbol = PM_SPECTRAL}) == -PM_DATA, "absorbing: %s", pm_message());
 }
 
+/* One number that is not finite is found, wherever it is. */
+static void infinite(void)
+{
+	const enum pm_face faces[] = {PM_PERIODIC, PM_WALL, PM_OPEN};
+	for (size_t k = 0; k < 3 * 2; k++) {
+		const struct pm_grid g = grid(2 + k % 2, 9, 5, k % 2 ? 6 : 1, faces[k / 2], faces[k / 2], faces[k / 2]);
+		const size_t n = pm_grid_size(&g);
+		double *s = noise(n), *phi = malloc(n * sizeof *phi);
+		solve(&g, PM_SPECTRAL, 1e308, s, phi); /* fails where r.most is not INFINITY */
+		for (size_t i = 0; i < n; i++)
+			s[i] *= 1e308;
+		solve(&g, PM_SPECTRAL, 1e308, s, phi);
+		size_t not_finite = 0;
+		for (size_t i = 0; i < n; i++)
+			not_finite += !isfinite(phi[i]);
+		check(not_finite, "%s, dim %d: a solution that is not finite is told", pm_face_names[faces[k / 2]], g.dim);
+		free(s), free(phi);
+	}
+}
+
 int main(void)
 {
+	infinite();
 	sizes();
 	means();
 	ratios();

@@ -48,7 +48,8 @@ static int solve(const struct pm_grid *g, uint64_t *travels)
 		const uint64_t before = pm_world_traffic().bytes;
 		bad |= !part || pm_poisson_fft_solve(part, 0.7, s + f.first, got, &here);
 		*travels = pm_world_traffic().bytes - before;
-		bad |= memcmp(want + f.first, got, f.count * sizeof *got) || memcmp(&all, &here, sizeof all);
+		bad |= memcmp(want + f.first, got, f.count * sizeof *got);
+		bad |= all.mean != here.mean || all.incompatible != here.incompatible || here.most > all.most;
 	}
 	pm_poisson_fft_free(part);
 	pm_planes_free(&p);
