@@ -66,24 +66,18 @@ PM_SIMD_INLINE void run_of(int pairs, bool woven, const struct lines *l, size_t 
 		one_node(pairs, woven, l, from + i, to + i * step);
 }
 
-PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *to)
+PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_later *g, const struct pm_tile_nodes *b, double *to)
 {
-	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1;
+	const size_t *n = g->operator.grid.points, step = woven ? 4 : 1, *x = b->at[0];
 	const size_t row = (size_t)pm_block_row[3] * step, plane = row * (size_t)pm_block_rows[3];
 	const double *phi = pm_in(g->later.from, 0);
-	const struct pm_axis *a = p->axes;
 	struct lines l = {.n = n[0]};
-	size_t first[3], slots[3];
-	for (int d = 0; d < 3; d++) {
-		slots[d] = pm_tile_slots(p, j->tile, d, &first[d]);
+	for (int d = 0; d < 3; d++)
 		for (int k = 0; k < pairs; k++)
 			l.w[d][k] = g->weight[d][k];
-	}
-	const size_t begin = first[0], end = begin + slots[0], *x = a[0].at;
-	const size_t from = a[0].from < begin ? begin : a[0].from < end ? a[0].from : end, till = a[0].to < from ? from : a[0].to < end ? a[0].to : end;
-	for (size_t z = 0; z < slots[2]; z++)
-		for (size_t y = 0; y < slots[1]; y++) {
-			const size_t ay = a[1].at[first[1] + y], az = a[2].at[first[2] + z];
+	for (size_t z = 0; z < b->slots[2]; z++)
+		for (size_t y = 0; y < b->slots[1]; y++) {
+			const size_t ay = b->at[1][y], az = b->at[2][z];
 			const double *const in_plane = phi + az * n[1] * n[0];
 			double *out = to + z * plane + y * row;
 			l.here = in_plane + ay * n[0];
@@ -94,40 +88,84 @@ PM_SIMD_INLINE void nodes_of(int pairs, bool woven, const struct pm_gradient_lat
 				l.up[1][k] = in_plane + above(ay, far, n[1]) * n[0], l.down[1][k] = in_plane + below(ay, far, n[1]) * n[0];
 				l.up[2][k] = phi + (above(az, far, n[2]) * n[1] + ay) * n[0], l.down[2][k] = phi + (below(az, far, n[2]) * n[1] + ay) * n[0];
 			}
-			for (size_t s = begin; s < from; s++)
-				one_node(pairs, woven, &l, x[s], out + (s - begin) * step);
-			if (from < till)
-				run_of(pairs, woven, &l, x[from], till - from, out + (from - begin) * step);
-			for (size_t s = till; s < end; s++)
-				one_node(pairs, woven, &l, x[s], out + (s - begin) * step);
+			for (size_t s = 0; s < b->from; s++)
+				one_node(pairs, woven, &l, x[s], out + s * step);
+			if (b->from < b->to)
+				run_of(pairs, woven, &l, x[b->from], b->to - b->from, out + b->from * step);
+			for (size_t s = b->to; s < b->slots[0]; s++)
+				one_node(pairs, woven, &l, x[s], out + s * step);
 		}
 }
 
-void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block, double *nodes)
+void pm_tile_gradient_of(const struct pm_gradient_later *l, const struct pm_tile_nodes *b, double *block, double *nodes)
 {
 	switch (l->operator.order) {
-	case 2: nodes ? nodes_of(1, true, l, p, j, nodes) : nodes_of(1, false, l, p, j, block); break;
-	case 4: nodes ? nodes_of(2, true, l, p, j, nodes) : nodes_of(2, false, l, p, j, block); break;
-	default: nodes ? nodes_of(3, true, l, p, j, nodes) : nodes_of(3, false, l, p, j, block);
+	case 2: nodes ? nodes_of(1, true, l, b, nodes) : nodes_of(1, false, l, b, block); break;
+	case 4: nodes ? nodes_of(2, true, l, b, nodes) : nodes_of(2, false, l, b, block); break;
+	default: nodes ? nodes_of(3, true, l, b, nodes) : nodes_of(3, false, l, b, block);
 	}
 }
 
-void pm_tile_gradient_fetch(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j)
+void pm_tile_gradient_beside(const struct pm_gradient_later *l, const size_t at[3][2], double node[8][3])
+{
+	const size_t *n = l->operator.grid.points;
+	const double *phi = pm_in(l->later.from, 0);
+	const int pairs = l->operator.order / 2;
+	for (size_t k = 0; k < 8; k++) {
+		const size_t i[3] = {at[0][k & 1], at[1][k >> 1 & 1], at[2][k >> 2]};
+		for (int d = 0; d < 3; d++) {
+			double sum = 0;
+			for (int pair = 0; pair < pairs; pair++) {
+				size_t up[3] = {i[0], i[1], i[2]}, down[3] = {i[0], i[1], i[2]};
+				up[d] = above(i[d], (size_t)pair + 1, n[d]), down[d] = below(i[d], (size_t)pair + 1, n[d]);
+				const double above_it = phi[(up[2] * n[1] + up[1]) * n[0] + up[0]], below_it = phi[(down[2] * n[1] + down[1]) * n[0] + down[0]];
+				const double more = l->weight[d][pair] * (above_it - below_it);
+				sum = pair ? sum + more : more;
+			}
+			node[k][d] = sum;
+		}
+	}
+}
+
+void pm_tile_gradient_of_fetch(const struct pm_gradient_later *l, const struct pm_tile_nodes *b)
 {
 	enum { line = 8 }; /* doubles per line of the cache */
 	const size_t *n = l->operator.grid.points, reach = (size_t)l->operator.order / 2;
 	const double *phi = pm_in(l->later.from, 0);
-	size_t first[3], slots[3];
-	if (!j)
-		return;
-	for (int d = 0; d < 3; d++)
-		slots[d] = pm_tile_slots(p, j->tile, d, &first[d]);
-	const size_t x = p->axes[0].at[first[0]];
-	size_t y0 = below(p->axes[1].at[first[1]], reach, n[1]), z = below(p->axes[2].at[first[2]], reach, n[2]);
-	for (size_t k = 0; k < slots[2] + 2 * reach; k++, z = above(z, 1, n[2]))
-		for (size_t q = 0, y = y0; q < slots[1] + 2 * reach; q++, y = above(y, 1, n[1])) {
-			const double *row = phi + (z * n[1] + y) * n[0] + x;
-			for (size_t i = 0; i < slots[0] + line - 1; i += line)
+	const size_t y0 = below(b->at[1][0], reach, n[1]);
+	size_t z = below(b->at[2][0], reach, n[2]);
+	for (size_t k = 0; k < b->slots[2] + 2 * reach; k++, z = above(z, 1, n[2]))
+		for (size_t q = 0, y = y0; q < b->slots[1] + 2 * reach; q++, y = above(y, 1, n[1])) {
+			const double *row = phi + (z * n[1] + y) * n[0] + b->at[0][0];
+			for (size_t i = 0; i < b->slots[0] + line - 1; i += line)
 				__builtin_prefetch(row + i, 0, 2);
 		}
+}
+
+static struct pm_tile_nodes of_job(const struct pm_tile_pass *p, const struct pm_tile_job *j)
+{
+	struct pm_tile_nodes b;
+	size_t first = 0;
+	for (int d = 2; d >= 0; d--) {
+		b.slots[d] = pm_tile_slots(p, j->tile, d, &first);
+		b.at[d] = p->axes[d].at + first;
+	}
+	const size_t end = first + b.slots[0], from = p->axes[0].from, to = p->axes[0].to; /* of x */
+	b.from = from < first ? 0 : from < end ? from - first : b.slots[0];
+	b.to = to < first + b.from ? b.from : to < end ? to - first : b.slots[0];
+	return b;
+}
+
+void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block, double *nodes)
+{
+	const struct pm_tile_nodes b = of_job(p, j);
+	pm_tile_gradient_of(l, &b, block, nodes);
+}
+
+void pm_tile_gradient_fetch(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j)
+{
+	if (!j)
+		return;
+	const struct pm_tile_nodes b = of_job(p, j);
+	pm_tile_gradient_of_fetch(l, &b);
 }

@@ -109,6 +109,25 @@ PM_SIMD_INLINE void look_at(const pm_simd component[4], const struct delivery to
 	pm_simd_raise(most, square);
 }
 
+/* Those of places, the first of them number p. most: NULL, or raised. */
+PM_SIMD_INLINE void deliver_places(const struct pm_tile *t, const struct places *places, size_t many, const struct delivery to[4], size_t p, pm_simd *most,
+	pm_simd *nothing)
+{
+	for (size_t i = 0; i < many; i += PM_SIMD_WIDTH) {
+		const size_t n = many - i < PM_SIMD_WIDTH ? many - i : PM_SIMD_WIDTH;
+		pm_simd4_at value[PM_SIMD_WIDTH];
+		pm_simd component[4];
+		values_of(t, places, i, value);
+		pm_simd_rows_to_lanes(value, component);
+		if (most)
+			look_at(component, to, most);
+		PM_SIMD_UNROLL
+		for (int c = 0; c < 4; c++)
+			if (c < t->components)
+				deliver_eight(component[c], n, &to[c], p + i, nothing);
+	}
+}
+
 bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_results *r)
 {
 	struct delivery to[4];
@@ -118,21 +137,46 @@ bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct p
 		to[c] = delivery_of(r, c);
 	for (size_t from = 0, end; from < batch->m; from = end) {
 		end = find_places(3, t, batch, from, place_of, &places);
-		for (size_t i = from; i < end; i += PM_SIMD_WIDTH) {
-			const size_t n = end - i < PM_SIMD_WIDTH ? end - i : PM_SIMD_WIDTH;
-			pm_simd4_at value[PM_SIMD_WIDTH];
-			pm_simd component[4];
-			values_of(t, &places, i - from, value);
-			pm_simd_rows_to_lanes(value, component);
-			if (r->most)
-				look_at(component, to, &most);
-			PM_SIMD_UNROLL
-			for (int c = 0; c < 4; c++)
-				if (c < t->components)
-					deliver_eight(component[c], n, &to[c], batch->p + i, &nothing);
-		}
+		deliver_places(t, &places, end - from, to, batch->p + from, r->most ? &most : NULL, &nothing);
 	}
 	for (int l = 0; l < PM_SIMD_WIDTH && r->most; l++)
 		*r->most = most[l] > *r->most ? most[l] : *r->most;
 	return !pm_simd_outside(nothing, (pm_simd){0}, (pm_simd){0});
+}
+
+/* Cells of the mesh to those of the block; as bits those beyond it, which are put into its first one. */
+PM_SIMD_INLINE unsigned in_reach(const struct pm_tile_reach *reach, struct eight *e)
+{
+	pm_simd_int beyond = {0};
+	PM_SIMD_UNROLL
+	for (int d = 0; d < 3; d++) {
+		pm_simd_int c = e->cell[d] - reach->first[d];
+		c += (c < 0) & reach->cells[d];
+		beyond |= c >= reach->many[d];
+		e->cell[d] = c;
+	}
+	PM_SIMD_UNROLL
+	for (int d = 0; d < 3; d++)
+		e->cell[d] &= ~beyond;
+	return pm_simd_int_others(beyond, 0);
+}
+
+void pm_tile_cic_gather_vectors_near(const struct pm_tile *t, const struct pm_tile_batch *batch, const struct pm_tile_reach *reach,
+	const struct pm_tile_results *r, uint64_t beyond[PM_TILE_ORDER_PACK / 64])
+{
+	const struct pm_tile_batch mine = *batch;
+	struct delivery to[4];
+	struct places places;
+	pm_simd nothing = {0};
+	for (int c = 0; c < t->components; c++)
+		to[c] = delivery_of(r, c);
+	for (size_t k = 0; k < PM_TILE_ORDER_PACK / 64; k++)
+		beyond[k] = 0;
+	for (size_t i = 0; i < mine.m; i += PM_SIMD_WIDTH) {
+		struct eight e = find_eight_of(3, t, &mine, i);
+		const size_t n = mine.m - i < PM_SIMD_WIDTH ? mine.m - i : PM_SIMD_WIDTH;
+		beyond[i / 64] |= (uint64_t)(in_reach(reach, &e) & ((1u << n) - 1)) << i % 64;
+		put_eight(3, &e, place_of, i, &places);
+	}
+	deliver_places(t, &places, mine.m, to, mine.p, NULL, &nothing);
 }

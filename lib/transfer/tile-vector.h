@@ -22,4 +22,12 @@ pm_tile_loop *pm_tile_gather_vector(const struct pm_kernel *k);
 void pm_tile_cic_gather_vectors(const struct pm_tile *t);
 bool pm_tile_cic_gather_vectors_in_order(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_results *r);
 
+/* Cells of a periodic mesh that a block has, along each axis: the first of them, how many, and how many the mesh has. */
+struct pm_tile_reach {
+	int32_t first[3], many[3], cells[3];
+};
+/* The same of a batch of at most PM_TILE_ORDER_PACK particles anywhere, as bits of beyond[] those that are not in these cells, whose values mean nothing. */
+void pm_tile_cic_gather_vectors_near(const struct pm_tile *t, const struct pm_tile_batch *b, const struct pm_tile_reach *reach, const struct pm_tile_results *r,
+	uint64_t beyond[PM_TILE_ORDER_PACK / 64]);
+
 #endif

@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transfer/gather-in-place.h"
 #include "transfer/tile-gradient.h"
 #include "transfer/tile-line.h"
 #include "transfer/tile-plane.h"
@@ -567,13 +568,18 @@ int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_colum
 	bool done[PM_COMPONENTS] = {false};
 	const int threads = threads_for(t, n);
 	struct pm_pass w;
+	const struct pm_order_cache *o = pm_order_cache_find(t, t->staggered[0], n, x);
+	bool in_place = false;
+	int status = o ? pm_gather_in_place(t, o, factor, taker, threads, &in_place) : 0;
+	if (status || in_place)
+		return status;
 	const struct pm_target to[PM_COMPONENTS] = {{.doubles = NULL}};
 	struct pm_column times[PM_COMPONENTS];
 	for (int c = 0; c < t->components; c++)
 		times[c] = (struct pm_column){.value = factor};
 	const struct pm_tile_results r = {times, t->set, to, NULL, taker};
 	pm_pass_next(t, done, &w);
-	int status = begin_gather(&w, n, x, &r, threads);
+	status = begin_gather(&w, n, x, &r, threads);
 	if (!status)
 		pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
 	pm_pass_end(&w);

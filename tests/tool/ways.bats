@@ -164,6 +164,31 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	[ "$(wc -c <want)" -gt 100000 ]
 }
 
+# Particles of a gas that have left the order of tiles by 0.4 cells: gathered where they stand (gather-in-place.c), but for a few; by 2 cells: by tiles. Axes
+# of one tile, of tiles with one cell, and of several; the charge over the mass one number for all, or not.
+@test "equal bytes: a step by a potential of particles that are nearly in the order of tiles" {
+	local step='push kick/2 drift | p2m | poisson-fft | mgrad --order ORDER | m2p | push kick/2' c cells order moved threads
+	for c in '33x17x9 2' '64x16x8 4' '40x33x20 6'; do
+		read -r cells order <<<"$c"
+		for moved in 0.4 2; do
+			pinit uniform -n 60000 --cells "$cells" --dispersion 1 --dt 1e-4 | ssort --no-history |
+				scalc --set matter --role state "x = x + $moved/40*vx, y + $moved/20*vy, z + $moved/14*vz" |
+				smove --no-history --shift 0,0,0 >start
+			cycle --no-history --engine pipes -n 2 "${step/ORDER/$order}" <start >want
+			for threads in 1 3; do
+				OMP_NUM_THREADS=$threads cycle --no-history -n 2 "${step/ORDER/$order}" <start | cmp - want
+			done
+		done
+	done
+	pinit plasma --dim 3 --cells 64x32x16 --dt 1e-3 --background 0 | species electrons -n 40000 --no-history | ssort --no-history |
+		scalc --set electrons --role state 'x = x + 0.1*vx, y + 0.1*vy, z + 0.2*vz' >one
+	scalc --set electrons --role state --extensive 'charge = charge*(1 - 3*(id < 20000))' 'mass = mass*(1 + id/50000)' <one >several
+	for c in one several; do
+		cycle --no-history --engine pipes -n 2 "${step/ORDER/2}" <$c >want
+		cycle --no-history -n 2 "${step/ORDER/2}" <$c | cmp - want
+	done
+}
+
 # instead OLD EXPRESSIONS SET: a frame whose field OLD has the values of EXPRESSIONS, as many components as there are.
 instead() { scalc --no-history --set "$3" --role state "w_new = $2" | sel --no-history --drop "$1" | smod --no-history --rename "w_new=$1"; }
 
