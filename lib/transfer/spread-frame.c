@@ -184,7 +184,7 @@ static bool surely_finite(const struct pm_spread_job *j, const struct pm_frame *
 	}
 	if (j->law->background)
 		most += fabs(pm_frame_constant(f, j->law->background, 0)) * fmax(volume, 1);
-	return !j->choice.interlace && !j->choice.add && most / fmin(volume, 1) < 1e300;
+	return !j->choice.interlace && !j->choice.add && most * fmax(1 / volume, 1) < 1e300; /* as sums are multiplied: 1 / volume may be infinite */
 }
 
 int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_plans *plans, uint64_t *outside)

@@ -72,6 +72,8 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 		run -3 bash -o pipefail -c "smove --scale mass=1e4 <large | p2m --kernel $kernel >/dev/null"
 		[[ $output == *"'rho' of 'mesh' is not finite"* ]]
 	done
+	run -3 bash -o pipefail -c 'pinit uniform -n 1000 --length 1e-104 --mass 1e-17 --cells 8 | p2m >/dev/null' # 1 / (volume of a cell) is infinite
+	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
 	run -3 bash -o pipefail -c 'smove --scale mass=1e4 <large | scalc --set matter --role state --extensive "mass = mass + 0*id" | p2m >/dev/null'
 	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
 }
