@@ -103,19 +103,26 @@ static void weigh(const struct pm_poisson_fft *p, const struct group *g, double 
 			block[(l->row + i) * L + (size_t)q] *= weight[q] * end_weight(l, l->first + i);
 }
 
-double pm_poisson_fft_largest(const double *block, size_t n)
+/* The largest absolute value of n rows of a block, of the first lines alone. finite: INFINITY where one is not; else what is NaN is passed over. */
+PM_SIMD_INLINE double most_of(const double *block, size_t n, size_t lines, bool finite)
 {
 	enum { PARTS = L / PM_SIMD_PART };
-	pm_simd_part most[PARTS] = {{0}};
+	pm_simd_part most[PARTS] = {{0}}, none[PARTS] = {{0}};
 	double all = 0;
 	for (size_t i = 0; i < n; i++) /* side by side: each comparison waits for the one before it */
 		PM_SIMD_UNROLL
-		for (size_t part = 0; part < PARTS; part++)
-			most[part] = larger(most[part], *(const pm_simd_part_at *)(block + i * L + part * PM_SIMD_PART));
-	for (int q = 0; q < L; q++)
-		all = most[q / PM_SIMD_PART][q % PM_SIMD_PART] > all ? most[q / PM_SIMD_PART][q % PM_SIMD_PART] : all;
+		for (size_t part = 0; part < PARTS; part++) {
+			const pm_simd_part v = *(const pm_simd_part_at *)(block + i * L + part * PM_SIMD_PART);
+			most[part] = larger(most[part], v);
+			if (finite)
+				none[part] += v - v;
+		}
+	for (size_t q = 0; q < lines; q++)
+		all = none[q / PM_SIMD_PART][q % PM_SIMD_PART] == 0 ? fmax(all, most[q / PM_SIMD_PART][q % PM_SIMD_PART]) : INFINITY;
 	return all;
 }
+
+double pm_poisson_fft_largest(const double *block, size_t n) { return most_of(block, n, L, false); }
 
 /* Of lines with zeros behind them, the nodes. */
 static size_t some_of(const struct pm_poisson_fft *p, int axis) { return p->line[axis].face[0] == PM_PERIODIC ? 0 : p->nodes[axis]; }
@@ -153,23 +160,6 @@ static double rows_forward(const struct pm_poisson_fft *p, const struct rows *io
 	return largest;
 }
 
-/* The largest absolute value of n rows of a block, of the first lines alone; INFINITY where one is not finite. */
-static double most_of(const double *block, size_t n, size_t lines)
-{
-	enum { PARTS = L / PM_SIMD_PART };
-	pm_simd_part most[PARTS] = {{0}}, none[PARTS] = {{0}};
-	double all = 0;
-	for (size_t i = 0; i < n; i++)
-		PM_SIMD_UNROLL
-		for (size_t part = 0; part < PARTS; part++) {
-			const pm_simd_part v = *(const pm_simd_part_at *)(block + i * L + part * PM_SIMD_PART);
-			most[part] = larger(most[part], v), none[part] += v - v;
-		}
-	for (size_t q = 0; q < lines; q++)
-		all = none[q / PM_SIMD_PART][q % PM_SIMD_PART] == 0 ? fmax(all, most[q / PM_SIMD_PART][q % PM_SIMD_PART]) : INFINITY;
-	return all;
-}
-
 /* Modes to nodes. Returns the largest absolute value; INFINITY where one is not finite. */
 static double rows_backward(const struct pm_poisson_fft *p, const struct rows *io, const struct group *g, struct scratch s, const double *from)
 {
@@ -188,7 +178,7 @@ static double rows_backward(const struct pm_poisson_fft *p, const struct rows *i
 	pm_fft_rows_out(s.block + l->row * L, NULL, p->nodes[X], g->rows, out);
 	for (size_t r = 0; r < g->rows && p->streams; r++)
 		pm_stream(io->to(io, g->j + r * g->dj, g->k + r * g->dk), out[r], p->nodes[X]);
-	return most_of(s.block + l->row * L, p->nodes[X], g->rows);
+	return most_of(s.block + l->row * L, p->nodes[X], g->rows, true);
 }
 
 /* n rows of a block, as at[] has them, from and to memory. */
