@@ -7,7 +7,8 @@
 
 #include "transfer/tile-order.h"
 
-/* ahead: the place of a later record is prefetched; line: doubles per cache line; many: a change of tile in fewer particles takes longer than these alone */
+/* ahead: of a later record the end is prefetched, for it begins where the one before ends; line: doubles per cache line; many: a change of tile in fewer
+ * particles takes longer than these alone */
 enum { batch = PM_TILE_ORDER_PACK, ahead = 16, line = 8, many = 16, begun = 256 /* eights before it is asked whether there are too many */ };
 
 static size_t chunk_from(const struct pm_tile_order *o, int chunk) { return pm_tile_chunk(o->n, o->chunks, chunk); }
@@ -296,7 +297,7 @@ static void move_rest(const struct pm_tile_order *o, const struct moved *b, size
 		const size_t p = b->p + i;
 		const uint32_t soon = o->tile[p + ahead < b->end ? p + ahead : p];
 		double *record = o->records + stride * cursor[o->tile[p]]++;
-		__builtin_prefetch(o->records + stride * cursor[soon], 1);
+		__builtin_prefetch(o->records + stride * cursor[soon] + n - 1, 1);
 		for (int c = 0; c < n; c++) {
 			if (i % line == 0)
 				__builtin_prefetch(b->next[c] + i);
@@ -342,7 +343,7 @@ PM_SIMD_INLINE size_t move_turned(int n, const struct pm_tile_order *o, const st
 			const size_t p = b->p + i + l;
 			const uint32_t soon = o->tile[p + ahead < b->end ? p + ahead : p];
 			double *record = o->records + stride * cursor[o->tile[p]]++;
-			__builtin_prefetch(o->records + stride * cursor[soon], 1);
+			__builtin_prefetch(o->records + stride * cursor[soon] + n - 1, 1);
 			put_record(n, row[l % 4], l / 4, record);
 			if (n == 3) /* a further store takes less than to turn a third number */
 				record[2] = b->value[2][i + l];
@@ -397,7 +398,7 @@ static void move_floats(struct pm_tile_order *o, int chunk, size_t *cursor)
 	const int n = columns_of(o, columns);
 	for (size_t p = chunk_from(o, chunk); p < to; p++) {
 		float *record = o->floats + packed * cursor[o->tile[p]]++;
-		__builtin_prefetch(o->floats + packed * cursor[o->tile[p + ahead < to ? p + ahead : p]], 1);
+		__builtin_prefetch(o->floats + packed * cursor[o->tile[p + ahead < to ? p + ahead : p]] + packed - 1, 1);
 		for (int k = 0; k < n; k++)
 			record[k] = columns[k][p];
 	}
@@ -830,7 +831,7 @@ static void collect(const struct pm_tile_order *o, const double *results, size_t
 	for (size_t i = 0; i < b->m; i++) {
 		uint32_t tile = o->tile[b->p + i], soon = o->tile[b->p + i + ahead < b->end ? b->p + i + ahead : b->p + i];
 		const double *record = results + stride * cursor[tile]++;
-		__builtin_prefetch(results + stride * cursor[soon]);
+		__builtin_prefetch(results + stride * cursor[soon] + nvalues - 1);
 		for (int c = 0; c < nvalues; c++)
 			to[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
 	}
@@ -849,7 +850,7 @@ int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *resu
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p++) {
 			const uint32_t tile = o->tile[p];
 			const float *record = results + each * cursor[tile]++;
-			__builtin_prefetch(results + each * cursor[o->tile[p + ahead < end ? p + ahead : p]]);
+			__builtin_prefetch(results + each * cursor[o->tile[p + ahead < end ? p + ahead : p]] + nvalues - 1);
 			for (int c = 0; c < nvalues; c++)
 				r->to[c].floats[p] = tile == o->tiles ? 0 : record[c];
 		}
