@@ -5,6 +5,7 @@
 #include "planner/plan-compare.h"
 #include "sentence/sentence.h"
 #include "stream/frame-time.h"
+#include "stream/later.h"
 #include "stream/run.h"
 
 struct pm_frame *pm_plan_bare(const struct pm_frame *f)
@@ -160,13 +161,22 @@ struct pm_frame *pm_plan_prime(const struct pm_frame *f, const char *sentence)
 	return ended(g, s, sentence, g ? pm_sentence_prime(s, &g) : pm_failed());
 }
 
+/* What is left to be made holds all it is made from, and there will be more such frames at a time. */
+static int bring(const struct pm_frame *f)
+{
+	int status = 0;
+	for (size_t i = 0; i < f->nfields && !status; i++)
+		status = pm_field_later_of(f->fields[i]) ? pm_held_bring(f->fields[i]) : 0;
+	return status;
+}
+
 struct pm_frame *pm_plan_force(const struct pm_frame *f, const char *sentence)
 {
 	struct pm_frame *g = pm_plan_prime(f, sentence);
 	if (!g)
 		return NULL;
 	pm_drops_roles(g, NULL, 1u << PM_DERIVED);
-	return pm_frame_settle(g) ? pm_frame_free(g) : g;
+	return pm_frame_settle(g) || bring(g) ? pm_frame_free(g) : g;
 }
 
 struct pm_frame *pm_plan_pass(const struct pm_frame *f, const char *words)

@@ -8,12 +8,18 @@
 
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o)
 {
-	if (!o)
+	if (!o || o->holders-- > 0)
 		return NULL;
 	pm_tile_order_free(&o->order);
 	pm_axes_free(o->axes);
 	free(o);
 	return NULL;
+}
+
+struct pm_order_cache *pm_order_cache_hold(struct pm_order_cache *o)
+{
+	o->holders++;
+	return o;
 }
 
 static void free_note(struct pm_note *note) { pm_order_cache_free((struct pm_order_cache *)note); }

@@ -8,6 +8,7 @@
 
 struct pm_order_cache {
 	struct pm_note note;     /* first member: it may be attached to the field of the positions */
+	int holders;             /* beside the one who has it first */
 	struct pm_grid grid;     /* what the order depends on, with n and the positions */
 	int width, rim;
 	bool cut, given[3][2];
@@ -22,7 +23,8 @@ struct pm_order_cache {
 /* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. */
 struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
 	const struct pm_column values[], int room);
-struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o);
+struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o); /* when the last of its holders gives it back */
+struct pm_order_cache *pm_order_cache_hold(struct pm_order_cache *o);
 /* The one attached there, if it belongs to these positions; NULL if none. */
 struct pm_order_cache *pm_order_cache_find(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[]);
 /* Particles that stay in the stream, none of them a stray. */

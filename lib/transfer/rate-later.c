@@ -16,6 +16,7 @@ struct pm_rate_left {
 	struct pm_later later; /* first member; from: the positions */
 	struct pm_transfer t;
 	struct pm_field *mesh;            /* the field, as it is */
+	struct pm_order_cache *order;     /* of the positions */
 	struct pm_field *charge, *mass;   /* whose quotient the field is times, particle by particle; NULL: `factor` for all */
 	double factor, pull;
 	double most, times;               /* of |rate|; of the particles' |factor| */
@@ -25,6 +26,7 @@ struct pm_rate_left {
 static void let_go(struct pm_later *later)
 {
 	struct pm_rate_left *l = (struct pm_rate_left *)later;
+	pm_order_cache_free(l->order);
 	pm_held_free(l->mesh), pm_held_free(l->charge), pm_held_free(l->mass);
 }
 
@@ -51,12 +53,14 @@ static int make(const struct pm_later *later, double *to)
 	struct pm_target out[PM_COMPONENTS];
 	const double *mesh[PM_COMPONENTS];
 	struct pm_strays strays;
+	struct pm_note *kept = &l->order->note;
 	double *ratio = l->charge ? pm_alloc(later->from->count, sizeof *ratio) : NULL;
 	if (l->charge && !ratio)
 		return -PM_DATA;
 	if (ratio)
 		quotients(pm_column_of(l->charge, 0), pm_column_of(l->mass, 0), later->from->count, ratio);
 	look_at_mesh(l, &t, mesh);
+	t.kept = &kept;
 	for (int d = 0; d < l->dim; d++)
 		x[d] = pm_column_of(later->from, d);
 	for (int c = 0; c < t.components; c++) {
@@ -127,7 +131,7 @@ static struct pm_order_cache *order_of(const struct pm_transfer *t, struct pm_no
 	for (int d = 0; d < t->grid.dim; d++)
 		at[d] = pm_column_of(x, d);
 	struct pm_order_cache *o = pm_order_cache_find(&here, t->staggered[0], x->count, at);
-	return o && pm_order_cache_stays(o) ? o : NULL;
+	return o && !o->strays.count && !o->order.floats ? o : NULL;
 }
 
 static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a)
@@ -156,6 +160,7 @@ int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	l->t.kept = NULL, l->t.planes = NULL, l->t.gradient = NULL;
 	const char *const q = j->law->strength, *const m = j->law->per;
 	const double *ratio = a->times[0].doubles;
+	l->order = pm_order_cache_hold(order_of(&a->t, a->t.kept, pm_frame_field(f, set, "x")));
 	l->mesh = pm_field_held(j->field);
 	l->charge = ratio ? pm_field_held(pm_frame_field(f, set, q)) : NULL, l->mass = ratio ? pm_field_held(pm_frame_field(f, set, m)) : NULL;
 	if (!l->mesh || (ratio && (!l->charge || !l->mass)))

@@ -1,5 +1,5 @@
-/* The gather of a law's field that is left to be made (stream/later.h), and the pass over the particles that makes it a few at a time: of particles that stay
- * in the stream of a periodic box. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The gather of a law's field that is left to be made (stream/later.h), and the pass over the particles that makes it a few at a time, in a periodic box: in
+ * the order of tiles where they stay in the stream, else from the results of all, in the order of the stream. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_TRANSFER_RATE_LATER_H
 #define PM_TRANSFER_RATE_LATER_H
 

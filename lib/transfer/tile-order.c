@@ -821,9 +821,9 @@ struct batch {
 	size_t p, m, end;
 };
 
-/* The records of a batch side by side, in the order of the stream; a stray's is zero. Where they go to is fetched meanwhile. */
+/* The records of a batch component by component, in the order of the stream; a stray's is zero. Where they go to is fetched meanwhile. */
 static void collect(const struct pm_tile_order *o, const double *results, size_t stride, const struct batch *b, size_t *cursor, int nvalues,
-	const struct pm_tile_results *r, double *to)
+	const struct pm_tile_results *r, double to[PM_COMPONENTS][batch])
 {
 	for (int c = 0; c < nvalues; c++)
 		for (size_t i = 0; i < b->m && r->to[c].doubles; i += line)
@@ -833,7 +833,7 @@ static void collect(const struct pm_tile_order *o, const double *results, size_t
 		const double *record = results + stride * cursor[tile]++;
 		__builtin_prefetch(results + stride * cursor[soon] + nvalues - 1);
 		for (int c = 0; c < nvalues; c++)
-			to[i * (size_t)nvalues + (size_t)c] = tile == o->tiles ? 0 : record[c];
+			to[c][i] = tile == o->tiles ? 0 : record[c];
 	}
 }
 
@@ -859,6 +859,29 @@ int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *resu
 	return 0;
 }
 
+/* Values of m particles to who takes them, times factor[c], one number each. */
+static void hand_over(const struct pm_tile_order *o, size_t p, size_t m, int nvalues, double values[PM_COMPONENTS][batch], const struct pm_tile_results *r)
+{
+	double *value[PM_COMPONENTS];
+	for (int c = 0; c < nvalues; c++) {
+		const double factor = r->factor[c].value;
+		for (size_t i = 0; i < m; i++)
+			values[c][i] *= factor;
+		value[c] = values[c];
+	}
+	r->taker->take(r->taker->data, o, p, m, NULL, value);
+}
+
+void pm_tile_order_hand_over(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
+	const struct pm_tile_results *r)
+{
+	double values[PM_COMPONENTS][batch];
+	for (int c = 0; c < nvalues; c++)
+		for (size_t i = 0; i < m; i++)
+			values[c][i] = records[i * (size_t)stride + (size_t)c];
+	hand_over(o, p, m, nvalues, values, r);
+}
+
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite)
 {
 	size_t columns = o->tiles + 1, *cursors = pm_alloc((size_t)o->chunks * columns, sizeof *cursors);
@@ -868,12 +891,15 @@ int pm_tile_order_return(const struct pm_tile_order *o, const double *results, i
 	memcpy(cursors, o->cursor, (size_t)o->chunks * columns * sizeof *cursors);
 #pragma omp parallel for num_threads(o->chunks) schedule(static, 1) reduction(| : bad)
 	for (int chunk = 0; chunk < o->chunks; chunk++) {
-		double records[batch * PM_COMPONENTS];
+		double values[PM_COMPONENTS][batch];
 		size_t *cursor = cursors + (size_t)chunk * columns;
 		for (size_t p = chunk_from(o, chunk), end = chunk_to(o, chunk); p < end; p += batch) {
 			size_t m = end - p < batch ? end - p : batch;
-			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, r, records);
-			bad |= !pm_tile_order_unpack(p, m, nvalues, records, nvalues, r);
+			collect(o, results, (size_t)stride, &(struct batch){p, m, end}, cursor, nvalues, r, values);
+			if (r->taker)
+				hand_over(o, p, m, nvalues, values, r);
+			else
+				bad |= !unpack(p, m, 1, batch, values[0], nvalues, r);
 		}
 	}
 	pm_free(cursors);

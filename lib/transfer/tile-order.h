@@ -46,9 +46,9 @@ struct pm_tile_particles {
 };
 
 struct pm_tile_order;
-/* Who takes the results of m particles that stay in the stream, in order from p on, m <= PM_TILE_ORDER_PACK, in place of arrays of them: value[nvalues][m],
- * which he may change, as x[dim], which is NULL, or where their positions are: in the stream, if they stand together there, else copies, [dim][PACK]. By
- * threads, of particles that are not the same. */
+/* Who takes the results of m particles in order from p on, or, where there are records, of the stream from p on, m <= PM_TILE_ORDER_PACK, in place of arrays
+ * of them: value[nvalues][m], which he may change, as x[dim], which is NULL, or where their positions are: in the stream, if they stand together there, else
+ * copies, [dim][PACK]. By threads, of particles that are not the same. */
 struct pm_tile_taker {
 	void (*take)(void *data, const struct pm_tile_order *o, size_t p, size_t m, double *const x[], double *const value[]);
 	void *data;
@@ -87,6 +87,9 @@ void pm_tile_ways(double dt, double h, size_t m, const double *x, const double *
 /* to[c][p] = (where set) or += factor[c][p] * (double c of the result of p); factor[c] NULL: 1; 0 for strays. results: [n][stride] in the order of the
  * records. Whether every value is finite; 0 or failure. */
 int pm_tile_order_return(const struct pm_tile_order *o, const double *results, int stride, int nvalues, const struct pm_tile_results *r, bool *finite);
+/* Results of m particles from p on to who takes them, times factor[c], one number each. */
+void pm_tile_order_hand_over(const struct pm_tile_order *o, size_t p, size_t m, int stride, const double *records, int nvalues,
+	const struct pm_tile_results *r);
 /* The same of results that are floats, for targets that are, times factor already: they are set. 0 or failure. */
 int pm_tile_order_return_floats(const struct pm_tile_order *o, const float *results, int stride, int nvalues, const struct pm_tile_results *r);
 /* The same for m particles of the stream from p on, whose records are given. */

@@ -37,7 +37,7 @@ bool pm_pass_gather(const struct pm_pass *w, const struct pm_tile_job *j, double
 bool pm_pass_gather_all(const struct pm_pass *w, int threads, const double *const mesh[], const struct pm_tile_results *r);
 void pm_pass_end(struct pm_pass *w);
 
-/* pm_gather_columns, times one factor, to who takes the results, of particles that stay in the stream and whose order is kept; three components at most,
+/* pm_gather_columns, times one factor, to who takes the results, of particles whose order is kept; three components at most,
  * all at one offset. 0 or failure. */
 int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_column x[], const double *const mesh[], double factor,
 	const struct pm_tile_taker *taker);

@@ -165,18 +165,6 @@ static bool leave_results(const struct pm_pass *w, size_t p, size_t m, int strid
 	return true;
 }
 
-/* Results of a batch to who takes them, component by component. */
-static void turn_over(const struct pm_pass *w, size_t p, const struct pm_tile *t, const struct pm_tile_results *r)
-{
-	double values[PM_COMPONENTS][PM_TILE_ORDER_PACK], *value[PM_COMPONENTS];
-	for (int c = 0; c < w->components; c++) {
-		for (size_t i = 0; i < t->count; i++)
-			values[c][i] = r->factor[c].value * t->results[i * (size_t)t->to + (size_t)c];
-		value[c] = values[c];
-	}
-	r->taker->take(r->taker->data, &w->o->order, p, t->count, NULL, value);
-}
-
 /* Of particles that stay in the stream, in order or by their places, or whose records are floats. t: with the blocks of the job. */
 static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j, struct pm_tile t, pm_tile_loop *loop, const struct pm_tile_results *r)
 {
@@ -191,7 +179,7 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
 		if (r->taker) {
-			turn_over(w, p, &t, r);
+			pm_tile_order_hand_over(&w->o->order, p, t.count, t.to, t.results, w->components, r);
 			continue;
 		}
 		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r)
@@ -580,8 +568,12 @@ int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_colum
 	const struct pm_tile_results r = {times, t->set, to, NULL, taker};
 	pm_pass_next(t, done, &w);
 	status = begin_gather(&w, n, x, &r, threads);
-	if (!status)
-		pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
+	bool finite = !status && pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
+	if (!status && w.o->order.records)
+		status = pm_tile_order_return(&w.o->order, w.results ? w.results : w.o->order.records, w.results ? w.components : w.o->order.stride,
+			w.components, &r, &finite);
+	if (w.o && w.o->order.records)
+		pm_tile_order_spend(&w.o->order);
 	pm_pass_end(&w);
 	return status;
 }

@@ -189,6 +189,22 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	done
 }
 
+@test "equal bytes: a step by a potential of particles in any order, in 2-D and 3-D" {
+	local step='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad | m2p | push kick/2' kernel threads
+	pinit uniform -n 40000 --cells 70x36x20 --dispersion 1 --dt 1e-3 >space
+	pinit uniform --dim 2 -n 40000 --cells 300x170 --dispersion 1 --dt 1e-3 >plane
+	pinit plasma --dim 3 --cells 64x32x16 --dt 1e-3 --background 0 | species electrons -n 40000 --no-history >one
+	scalc --set electrons --role state --extensive 'charge = charge*(1 - 3*(id < 20000))' 'mass = mass*(1 + id/50000)' <one >several
+	for c in space plane one several; do
+		for kernel in '--kernel cic' '--kernel pcs'; do
+			cycle --no-history --engine pipes -n 3 "${step/KERNEL/$kernel}" <$c >want
+			for threads in 1 3; do
+				OMP_NUM_THREADS=$threads cycle --no-history -n 3 "${step/KERNEL/$kernel}" <$c | cmp - want
+			done
+		done
+	done
+}
+
 # instead OLD EXPRESSIONS SET: a frame whose field OLD has the values of EXPRESSIONS, as many components as there are.
 instead() { scalc --no-history --set "$3" --role state "w_new = $2" | sel --no-history --drop "$1" | smod --no-history --rename "w_new=$1"; }
 
