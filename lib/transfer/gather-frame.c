@@ -255,7 +255,7 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 /* The gradient that the field is left as, if it can be gathered so to all sets: nothing else is on the mesh, or asks for the field. */
 static const struct pm_gradient_later *left_of(const struct pm_gather_job *j)
 {
-	const bool alone = !j->changes.n && !j->interlaced && !j->choice.beside && j->field->role != PM_STATE && !j->law->magnetic;
+	const bool alone = !j->changes.n && !j->interlaced && !j->choice.beside && j->field->role != PM_STATE;
 	return alone && j->transfer.components == 3 ? pm_gradient_later_of(j->field) : NULL;
 }
 
