@@ -10,6 +10,7 @@
 #include "limit/rates.h"
 #include "mesh/gradient.h"
 #include "planner/scales.h"
+#include "stream/column.h"
 #include "stream/field-value.h"
 
 static const struct pm_field *state(const struct pm_frame *f, const char *on, const char *name)
@@ -26,45 +27,62 @@ static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const
 	return state(f, set->name, "x") && (pm_set_moves(f, set) || state(f, set->name, law->strength));
 }
 
+/* Its numbers, asked for once. */
+static struct pm_column column(const struct pm_field *f, int c)
+{
+	return pm_value_is_one(f) ? (struct pm_column){.value = f->value[c]} : pm_column_doubles(pm_in(f, c));
+}
+
 /* ---- speeds ---- */
 
-/* The velocities of a set, and the strengths by which they are weighted; NULL: all alike. */
+/* The velocities of a set, and the strengths by which they are weighted. */
 struct speeds {
-	const struct pm_field *v, *q;
-	double share; /* mean strength */
+	struct pm_column v[3], q;
+	int components;
+	double share; /* mean strength; 0: all alike */
 };
+
+static struct speeds speeds_of(const struct pm_field *v)
+{
+	struct speeds s = {.components = v->components < 3 ? v->components : 3};
+	for (int c = 0; c < s.components; c++)
+		s.v[c] = column(v, c);
+	return s;
+}
 
 enum { SQUARE = 3 };
 
 static void make_share(const void *data, size_t from, size_t to, void *part)
 {
 	for (size_t i = from; i < to; i++)
-		pm_sum_add(part, fabs(pm_value_at(data, 0, i)));
+		pm_sum_add(part, fabs(pm_column_at(data, i)));
 }
 
 static void make_speeds(const void *data, size_t from, size_t to, void *part)
 {
-	const struct speeds *s = data;
+	const struct speeds s = *(const struct speeds *)data;
 	struct pm_sum *sum = part;
 	for (size_t i = from; i < to; i++) {
-		const double weight = s->share > 0 ? fabs(pm_value_at(s->q, 0, i)) / s->share : 1;
+		const double weight = s.share > 0 ? fabs(pm_column_at(&s.q, i)) / s.share : 1;
 		double v2 = 0;
-		for (int c = 0; c < s->v->components && c < 3; c++) {
-			v2 += pm_value_at(s->v, c, i) * pm_value_at(s->v, c, i);
-			pm_sum_add(&sum[c], weight * pm_value_at(s->v, c, i));
+		for (int c = 0; c < s.components; c++) {
+			const double v = pm_column_at(&s.v[c], i);
+			v2 += v * v;
+			pm_sum_add(&sum[c], weight * v);
 		}
 		pm_sum_add(&sum[SQUARE], weight * v2);
 	}
 }
 
-static double fastest(const struct pm_field *v)
+static double fastest(const struct speeds *s, size_t n)
 {
 	double most = 0;
-	for (size_t i = 0; i < v->count; i++) {
+#pragma omp parallel for schedule(static) reduction(max : most) if (n > pm_many_turns())
+	for (size_t i = 0; i < n; i++) {
 		double v2 = 0;
-		for (int c = 0; c < v->components && c < 3; c++)
-			v2 += pm_value_at(v, c, i) * pm_value_at(v, c, i);
-		most = fmax(most, v2);
+		for (int c = 0; c < s->components; c++)
+			v2 += pm_column_at(&s->v[c], i) * pm_column_at(&s->v[c], i);
+		most = v2 > most ? v2 : most;
 	}
 	return sqrt(most);
 }
@@ -79,12 +97,16 @@ static void speeds(const struct pm_frame *f, const struct pm_law *law, struct pm
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *v = pm_set_moves(f, f->sets[k]) ? state(f, f->sets[k]->name, "v") : NULL;
 		const struct pm_field *q = v && s->kind == PM_CHARGES ? state(f, f->sets[k]->name, law->strength) : NULL;
-		struct pm_sum share = {0, 0};
-		if (q && !q->uniform)
-			pm_over_set(&shares, q, q->count, &share);
 		if (v) {
-			pm_over_set(&parts, &(struct speeds){v, q, q && q->count ? pm_sum_total(share) / (double)q->count : 0}, v->count, sum);
-			s->v_max = fmax(s->v_max, fastest(v));
+			struct speeds of = speeds_of(v);
+			struct pm_sum share = {0, 0};
+			if (q && !q->uniform && q->count) {
+				of.q = column(q, 0);
+				pm_over_set(&shares, &of.q, q->count, &share);
+				of.share = pm_sum_total(share) / (double)q->count;
+			}
+			pm_over_set(&parts, &of, v->count, sum);
+			s->v_max = fmax(s->v_max, fastest(&of, v->count));
 			s->components = v->components > s->components ? v->components : s->components;
 		}
 		n += v ? (double)v->count : 0;
@@ -104,9 +126,13 @@ static size_t places(const struct pm_frame *f, const struct pm_law *law, size_t 
 	size_t n = 0;
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *p = takes_part(f, law, f->sets[k]) ? state(f, f->sets[k]->name, "x") : NULL;
-		for (size_t i = 0; p && i < p->count && n < most; i++, n++)
-			for (int d = 0; d < f->dim; d++)
-				x[d][n] = pm_value_at(p, d, i);
+		const size_t m = !p ? 0 : p->count < most - n ? p->count : most - n;
+		for (int d = 0; d < f->dim && m; d++) {
+			const struct pm_column at = column(p, d);
+			for (size_t i = 0; i < m; i++)
+				x[d][n + i] = pm_column_at(&at, i);
+		}
+		n += m;
 	}
 	return n;
 }
@@ -185,23 +211,34 @@ static int distances(const struct pm_frame *f, const struct pm_law *law, struct 
 /* ---- collective frequency ---- */
 
 struct pulls {
-	const struct pm_field *q, *m;
-	bool squares;
+	struct pm_column q[PM_COMPONENTS], m;
+	int components;
+	bool squares, masses;
 };
 
-/* Of a strength: its absolute value, or the length of a vector. */
-static double size_of(const struct pm_field *q, size_t i)
+static struct pulls pulls_of(const struct pm_field *q, const struct pm_field *m, bool squares)
 {
-	double size = fabs(pm_value_at(q, 0, i));
-	for (int c = 1; c < q->components; c++)
-		size = hypot(size, pm_value_at(q, c, i));
+	struct pulls p = {.components = q->components, .squares = squares, .masses = m};
+	for (int c = 0; c < p.components; c++)
+		p.q[c] = column(q, c);
+	if (m)
+		p.m = column(m, 0);
+	return p;
+}
+
+/* Of a strength: its absolute value, or the length of a vector. */
+static double size_of(const struct pulls *p, size_t i)
+{
+	double size = fabs(pm_column_at(&p->q[0], i));
+	for (int c = 1; c < p->components; c++)
+		size = hypot(size, pm_column_at(&p->q[c], i));
 	return size;
 }
 
 static double pull(const struct pulls *p, size_t i)
 {
-	const double a = size_of(p->q, i);
-	return !p->squares ? a : p->m && pm_value_at(p->m, 0, i) > 0 ? a * a / pm_value_at(p->m, 0, i) : 0;
+	const double a = size_of(p, i);
+	return !p->squares ? a : p->masses && pm_column_at(&p->m, i) > 0 ? a * a / pm_column_at(&p->m, i) : 0;
 }
 
 static void make_pulls(const void *data, size_t from, size_t to, void *part)
@@ -220,15 +257,17 @@ static void strengths(const struct pm_frame *f, const struct pm_law *law, struct
 		const char *set = f->sets[k]->name;
 		const struct pm_field *q = state(f, set, law->strength), *m = squares ? state(f, set, law->per) : NULL;
 		const struct pm_field *v = turns ? state(f, set, "volume") : NULL;
-		const struct pulls of = {q, m, squares};
-		if (q)
-			pm_over_set(&parts, &of, q->count, &total);
-		for (size_t i = 0; q && i < q->count; i++) {
-			const double a = size_of(q, i);
-			s->sources += a > 0;
+		if (!q)
+			continue;
+		const struct pulls of = pulls_of(q, m, squares);
+		const bool one = pm_value_is_one(q) && (!m || pm_value_is_one(m)) && !v; /* then all are the first */
+		pm_over_set(&parts, &of, q->count, &total);
+		for (size_t i = 0; i < (one && q->count ? 1 : q->count); i++) {
+			const double a = size_of(&of, i);
+			s->sources += a > 0 ? one ? (double)q->count : 1 : 0;
 			dense = v && pm_value_at(v, 0, i) > 0 ? fmax(dense, a / pm_value_at(v, 0, i)) : dense;
 			largest_pull = fmax(largest_pull, pull(&of, i));
-			s->ratio = fmax(s->ratio, m && pm_value_at(m, 0, i) > 0 ? a / pm_value_at(m, 0, i) : squares ? 0 : 1);
+			s->ratio = fmax(s->ratio, m && pm_column_at(&of.m, i) > 0 ? a / pm_column_at(&of.m, i) : squares ? 0 : 1);
 		}
 	}
 	const double c = law->coefficient ? fabs(law->coefficient(f)) : s->light ? 1 / pm_frame_constant(f, "eps0", 1) : 0;
@@ -377,10 +416,10 @@ static int mesh_scales(const struct pm_frame *f, const struct pm_law *law, const
 
 static void make_squares(const void *data, size_t from, size_t to, void *part)
 {
-	const struct pm_field *a = data;
+	const struct pulls *a = data;
 	for (size_t i = from; i < to; i++)
 		for (int c = 0; c < a->components; c++)
-			pm_sum_add(part, pm_value_at(a, c, i) * pm_value_at(a, c, i));
+			pm_sum_add(part, pm_column_at(&a->q[c], i) * pm_column_at(&a->q[c], i));
 }
 
 int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struct pm_scales *s)
@@ -391,8 +430,10 @@ int pm_scales_of_force(const struct pm_frame *f, const struct pm_law *law, struc
 	for (size_t k = 0; k < f->nsets; k++) {
 		const struct pm_field *a = pm_set_moves(f, f->sets[k]) ? pm_frame_field(f, f->sets[k]->name, law->change) : NULL;
 		pm_field_bring(a);
-		if (a)
-			pm_over_set(&parts, a, a->count, &square);
+		if (a) {
+			const struct pulls of = pulls_of(a, NULL, false);
+			pm_over_set(&parts, &of, a->count, &square);
+		}
 		most = a ? fmax(most, sqrt(pm_most(a, NULL))) : most;
 		n += a ? (double)a->count : 0;
 	}
