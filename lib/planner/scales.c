@@ -30,7 +30,7 @@ static bool takes_part(const struct pm_frame *f, const struct pm_law *law, const
 /* Its numbers, asked for once. */
 static struct pm_column column(const struct pm_field *f, int c)
 {
-	return pm_value_is_one(f) ? (struct pm_column){.value = f->value[c]} : pm_column_doubles(pm_in(f, c));
+	return !f->count || pm_value_is_one(f) ? (struct pm_column){.value = f->value[c]} : pm_column_doubles(pm_in(f, c));
 }
 
 /* ---- speeds ---- */
