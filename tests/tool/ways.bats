@@ -203,6 +203,13 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 			done
 		done
 	done
+	# accelerations that are asked for before the push, a second gather at these positions, and B beside E
+	for c in space several; do
+		same "${step/KERNEL/} | dt --oscillation 0.1" 2 <$c
+		same "${step/KERNEL | poisson-fft | mgrad | m2p/| poisson-fft | mgrad | m2p | p2m --kernel pcs | poisson-fft | mgrad | m2p --replace}" 2 <$c
+	done
+	step=${step/KERNEL/}
+	scalc --no-history --mesh mesh --role state 'B = 0.1, 0.3*sin(x), 1' <several | same "${step//kick/boris}" 2
 }
 
 # instead OLD EXPRESSIONS SET: a frame whose field OLD has the values of EXPRESSIONS, as many components as there are.
