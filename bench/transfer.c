@@ -169,7 +169,7 @@ static void threads(struct run *r, int most)
 
 static struct run run_new(size_t cells, size_t per_cell, int dim)
 {
-	struct run r = {.t.grid = {.dim = dim}, .n = per_cell, .cells = cells, .per_cell = per_cell};
+	struct run r = {.t.grid = {.dim = dim}, .t.cleared = true, .n = per_cell, .cells = cells, .per_cell = per_cell};
 	for (int d = 0; d < 3; d++) {
 		r.t.grid.cells[d] = r.t.grid.points[d] = d < dim ? cells : 1;
 		r.t.grid.h[d] = 1;

@@ -243,7 +243,7 @@ int pm_staggered_order(const struct pm_transfer *t, size_t n, const struct pm_co
 	if (!t->kept)
 		return 0;
 	if (!left) {
-		if (!(left = pm_order_cache_new(t, nodes, n, x, 0, NULL, 0)))
+		if (!(left = pm_order_cache_new(t, nodes, n, x, 0, NULL, 0, false)))
 			return -PM_DATA;
 		pm_order_cache_leave(t, left);
 	}

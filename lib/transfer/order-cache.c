@@ -25,7 +25,7 @@ struct pm_order_cache *pm_order_cache_hold(struct pm_order_cache *o)
 static void free_note(struct pm_note *note) { pm_order_cache_free((struct pm_order_cache *)note); }
 
 struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
-	const struct pm_column values[], int room)
+	const struct pm_column values[], int room, bool assume)
 {
 	struct pm_order_cache *o = calloc(1, sizeof *o);
 	if (!o) {
@@ -44,7 +44,7 @@ struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const uns
 		o->x[d] = x[d];
 	const struct pm_tile_particles particles = {.dim = t->grid.dim, .nvalues = nvalues, .n = n, .x = x, .values = values,
 		.stays = t->planes && t->planes->divided ? 0 : t->cut ? PM_STAY_WIDE : PM_STAY_FEW, /* ranks send records */
-		.finite = t->kept}; /* positions of a frame */
+		.finite = t->kept, .assume = assume}; /* positions of a frame */
 	if (pm_axes_init(o->axes, t, staggered) || pm_tile_order_init(&o->order, o->axes, &particles, room, &o->strays))
 		return pm_order_cache_free(o);
 	return o;

@@ -22,7 +22,7 @@ struct pm_order_cache {
 
 /* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. */
 struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
-	const struct pm_column values[], int room);
+	const struct pm_column values[], int room, bool assume);
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o); /* when the last of its holders gives it back */
 struct pm_order_cache *pm_order_cache_hold(struct pm_order_cache *o);
 /* The one attached there, if it belongs to these positions; NULL if none. */

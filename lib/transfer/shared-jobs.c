@@ -191,7 +191,7 @@ static int order_of(struct pm_shared_jobs *v, size_t n, const double *const x[],
 	for (int c = 0; v->local && c < v->local->order.nvalues; c++)
 		v->local->order.values[c] = (struct pm_column){.value = 0}; /* of the spread: nobody asks for them, and their array may be gone */
 	if (!v->local || v->local->order.runs.run)
-		v->local = pm_order_cache_new(v->t, staggered, n, at, nvalues, strength, room);
+		v->local = pm_order_cache_new(v->t, staggered, n, at, nvalues, strength, room, false);
 	else if (pm_tile_order_spent(&v->local->order))
 		return pm_tile_order_again(&v->local->order, room);
 	return v->local ? 0 : pm_failed();

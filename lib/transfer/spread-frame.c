@@ -128,7 +128,7 @@ static int spread(const struct pm_spread_job *j, const struct pm_transfer *t, co
 				   : pm_spread(t, x->count, a->x, a->q, a->mesh, strays);
 }
 
-int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside)
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, bool first, struct pm_fft_plans *plans, uint64_t *outside)
 {
 	struct pm_transfer t = transfer_of(j, f);
 	struct pm_field *positions = pm_frame_field(f, set, "x"), *density = pm_frame_field(f, j->mesh->name, j->density);
@@ -143,7 +143,7 @@ int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char 
 		a.values[c] = pm_column_of(strength, c);
 	if (!a.columns)
 		pm_positions(f, set, a.x);
-	t.kept = &positions->note;
+	t.kept = &positions->note, t.cleared = first && !j->choice.add;
 	for (int c = 0; c < t.components; c++)
 		a.mesh[c] = pm_out(density, c);
 	int status = pm_planes_init(&planes, &t.grid, density);
@@ -193,7 +193,7 @@ int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_pla
 	*outside = 0;
 	for (size_t i = 0; !status && i < j->sets.n; i++) {
 		uint64_t left_out = 0;
-		status = pm_spread_set(j, f, j->sets.name[i], plans, &left_out);
+		status = pm_spread_set(j, f, j->sets.name[i], !i, plans, &left_out);
 		*outside += left_out;
 	}
 	if (status)

@@ -32,7 +32,7 @@ int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f);
 /* With the data, all of it (*outside counts the particles left out); or in parts: the mesh grows, then set by set, then what the law adds to its density. */
 int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_plans *plans, uint64_t *outside);
 int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f);
-int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, struct pm_fft_plans *plans, uint64_t *outside);
+int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, bool first, struct pm_fft_plans *plans, uint64_t *outside);
 void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f);
 
 #endif

@@ -64,6 +64,7 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 	const size_t m = batch->m;
 	struct shares s;
 	double few[PM_SIMD_WIDTH] = {0};
+	pm_simd_int beyond = {0};
 	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
 		const struct eight e = find_eight(t, batch, i);
 		pm_simd strength;
@@ -74,7 +75,12 @@ void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *bat
 			strength = pm_simd_load_any(few);
 		}
 		__builtin_prefetch(batch->next_value + i, 0, 2);
+		beyond |= (e.cell[0] >> pm_tile_shift[3][0]) | (e.cell[1] >> pm_tile_shift[3][1]) | (e.cell[2] >> pm_tile_shift[3][2]);
 		share(&e, strength, i, &s);
+	}
+	if (batch->outside && pm_simd_int_others(beyond, 0)) {
+		__atomic_store_n(batch->outside, true, __ATOMIC_RELAXED);
+		return;
 	}
 	add_shares(&s, m, t->squares);
 }

@@ -635,6 +635,72 @@ int pm_tile_order_again(struct pm_tile_order *o, int room)
 	return 0;
 }
 
+/* The tile of particle p; `tiles` of a stray. */
+static size_t tile_at(const struct pm_tile_order *o, size_t p)
+{
+	size_t tile = 0;
+	for (int d = o->dim - 1; d >= 0; d--) {
+		double u;
+		if (!pm_axis_locate(&o->axes[d], o->x[d].doubles[p], &u) || !(u >= 0))
+			return o->tiles;
+		tile = tile * o->across[d] + ((size_t)u >> pm_tile_shift[o->dim][d]);
+	}
+	return tile;
+}
+
+/* Of some pairs of neighbours in the stream. */
+static bool seems_in_order(const struct pm_tile_order *o)
+{
+	enum { pairs = 512 };
+	size_t last = 0;
+	for (size_t k = 0; k < pairs; k++) {
+		const size_t p = (size_t)((double)(o->n - 2) * (double)k / (pairs - 1)), here = tile_at(o, p), next = tile_at(o, p + 1);
+		if (here < last || next < here || next == o->tiles)
+			return false;
+		last = next;
+	}
+	return true;
+}
+
+/* The first particle from `from` on that is in this tile or a later one, if the stream is in order: about `guess` further on. */
+static size_t first_of(const struct pm_tile_order *o, size_t tile, size_t from, size_t guess)
+{
+	size_t low = from, high = o->n, at = from + guess < o->n ? from + guess : o->n, step = 4;
+	while (low < high && at > low && tile_at(o, at - 1) >= tile)
+		high = at - 1, at = at - low > step ? at - step : low, step *= 2;
+	low = at > low ? at : low;
+	for (step = 4; low < high && low + step < high && tile_at(o, low + step) < tile; step *= 2)
+		low += step + 1;
+	high = low + step < high ? low + step : high;
+	while (low < high) {
+		const size_t middle = low + (high - low) / 2;
+		if (tile_at(o, middle) < tile)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return low;
+}
+
+/* True if the stream seems to be in order; then begin[] is that of such a stream. */
+static bool assume_order(struct pm_tile_order *o)
+{
+	enum { least = 8192 };
+	for (int d = 0; d < o->dim; d++)
+		if (!o->x[d].doubles)
+			return false;
+	if (o->ways || o->n < least || o->n < 64 * o->tiles || !seems_in_order(o))
+		return false;
+	size_t guess = o->n / o->tiles;
+	o->begin[0] = 0;
+	for (size_t t = 1; t < o->tiles; t++) {
+		o->begin[t] = first_of(o, t, o->begin[t - 1], guess);
+		guess = o->begin[t] - o->begin[t - 1];
+	}
+	o->begin[o->tiles] = o->begin[o->tiles + 1] = o->n;
+	return o->assumed = true;
+}
+
 static int count_tiles(struct pm_tile_order *o, const struct pm_axis axes[3])
 {
 	o->tiles = 1;
@@ -670,6 +736,8 @@ int pm_tile_order_init(struct pm_tile_order *o, const struct pm_axis axes[3], co
 		o->chunks--;
 	if ((status = allocate(o)))
 		return status;
+	if (p->assume && assume_order(o))
+		return 0;
 	if (!in_order(o))
 		return runs_or_move(o, p->v && !p->stays ? PM_STAY_WIDE : p->stays, strays);
 	add_up(o);

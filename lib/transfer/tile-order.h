@@ -24,6 +24,7 @@ struct pm_tile_order {
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];
 	bool finite;          /* no position is NaN */
+	bool assumed;         /* that the stream is in order, from some of it: who reads all of it finds out */
 	bool ways;            /* of the particles from x to x + v dt */
 	double dt;
 	int nvalues;
@@ -40,7 +41,7 @@ struct pm_tile_particles {
 	size_t n;
 	const struct pm_column *x, *values;
 	int stays;
-	bool finite;
+	bool finite, assume;
 	const struct pm_column *v;
 	double dt;
 };

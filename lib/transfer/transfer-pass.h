@@ -21,6 +21,7 @@ struct pm_pass {
 	bool blockwise;  /* gather: positions, factors or targets are not doubles */
 	int to;          /* 0: components */
 	double *nodes; /* gather: NULL or [threads][PM_VECTOR_NODES] */
+	bool *outside;  /* spread: of an order that is assumed: set where it is not so */
 	double *squares; /* NULL or [threads][each][PM_TILE_SQUARES], before a spread zero */
 };
 

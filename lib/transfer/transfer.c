@@ -88,6 +88,7 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 	pm_tile_spread_loop *straight = w->o->order.floats ? NULL : spread_straight(dim, w->t->kernel, squares);
 	double packed[PM_TILE_ORDER_PACK * (PM_COMPONENTS + 3) + 4], few[3][PM_TILE_ORDER_PACK];
 	struct pm_tile_batch batch = pm_tile_batch(&w->o->order);
+	batch.outside = w->outside;
 	t.value = dim + value;
 	t.squares = squares ? w->squares + (size_t)omp_get_thread_num() * PM_TILE_SQUARES : NULL;
 	if (t.records)
@@ -134,17 +135,19 @@ static struct pm_tile_target mesh_of(const struct pm_pass *w, int value)
 static void spread_component(const struct pm_pass *w, int value, int threads, const struct pm_tile_stretches *s, double *mesh)
 {
 	const struct pm_tile_target to_mesh = mesh_of(w, value);
+	const bool *const outside = w->outside;
 #pragma omp parallel num_threads(threads)
 	{
 		double *block = w->blocks + (size_t)omp_get_thread_num() * doubles_of_block(w->t->grid.dim);
 #pragma omp for schedule(dynamic, 1)
 		for (size_t k = 0; k < s->count; k++)
-			for (size_t j = s->stretch[k].from, kept = 0; j < s->stretch[k].to; j++) {
+			for (size_t j = s->stretch[k].from, kept = 0; j < s->stretch[k].to && !(outside && __atomic_load_n(outside, __ATOMIC_RELAXED)); j++) {
 				pm_tile_fetch_mesh(&w->p, &w->p.job[j], &to_mesh, mesh);
 				pm_pass_spread(w, &w->p.job[j], value, block);
 				pm_tile_stretch_add(s, k, &w->p, &w->p.job[j], &to_mesh, block, mesh, &kept);
 			}
-		pm_tile_stretches_add_kept(s, &w->p, &to_mesh, omp_get_thread_num(), omp_get_num_threads(), mesh);
+		if (!(outside && *outside)) /* else not all were kept, and the mesh is cleared */
+			pm_tile_stretches_add_kept(s, &w->p, &to_mesh, omp_get_thread_num(), omp_get_num_threads(), mesh);
 	}
 }
 
@@ -347,12 +350,12 @@ static int begin_pass(struct pm_pass *w, size_t at_once, size_t doubles)
 }
 
 /* The particles in order, with the values that go along. */
-static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[], const struct pm_column strength[], int threads)
+static int begin_spread(struct pm_pass *w, size_t n, const struct pm_column x[], const struct pm_column strength[], int threads, bool assume)
 {
 	struct pm_column values[PM_COMPONENTS];
 	for (int c = 0; c < w->components; c++)
 		values[c] = strength[w->which[c]];
-	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0);
+	w->o = pm_order_cache_new(w->t, w->t->staggered[w->which[0]], n, x, w->components, values, 0, assume);
 	return begin_pass(w, (size_t)threads, doubles_of_block(w->t->grid.dim));
 }
 
@@ -383,7 +386,7 @@ static int begin_gather(struct pm_pass *w, size_t n, const struct pm_column x[],
 	const unsigned char *staggered = w->t->staggered[w->which[0]];
 	w->o = pm_order_cache_find(w->t, staggered, n, x);
 	if (!w->o)
-		w->o = pm_order_cache_new(w->t, staggered, n, x, 0, NULL, w->components);
+		w->o = pm_order_cache_new(w->t, staggered, n, x, 0, NULL, w->components, false);
 	else if (pm_tile_order_spent(&w->o->order) && pm_tile_order_again(&w->o->order, w->components))
 		return -PM_DATA;
 	struct pm_tile_order *o = w->o ? &w->o->order : NULL;
@@ -442,10 +445,19 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	return pm_spread_columns(t, n, at, values, mesh, strays);
 }
 
+/* Only the loop over squares looks whether particles are in their tile. */
+static bool all_squares(const struct pm_pass *w)
+{
+	bool all = spread_straight(3, w->t->kernel, true) == pm_tile_cic_spread;
+	for (size_t j = 0; j < w->p.jobs && all; j++)
+		all = pm_tile_has_squares(3, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
+	return all;
+}
+
 int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const struct pm_column strength[], double *const mesh[],
 	struct pm_strays *strays)
 {
-	bool done[PM_COMPONENTS] = {false};
+	bool done[PM_COMPONENTS] = {false}, assume = true, outside = false;
 	struct pm_pass w;
 	int status = 0, threads = threads_for(t, n);
 	*strays = (struct pm_strays){.count = 0};
@@ -455,19 +467,27 @@ int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 		return pm_spread_ranks(t, n, at, values, mesh, strays);
 	}
 	while (n && !status && pm_pass_next(t, done, &w)) {
-		status = begin_spread(&w, n, x, strength, threads);
+		status = begin_spread(&w, n, x, strength, threads, assume && t->cleared && t->grid.dim == 3 && t->components == 1);
+		if (!status && w.o->order.assumed)
+			w.outside = &outside, outside = !all_squares(&w);
 		struct pm_tile_stretches s = {.count = 0};
 		status = status ? status : pm_pass_squares(&w, threads, 1);
 		if (!status) {
 			const struct pm_tile_target lines = mesh_of(&w, 0);
 			status = pm_tile_stretches_init(&s, &w.p, &lines, threads_of(&w, threads));
 		}
-		for (int c = 0; c < w.components && !status; c++)
+		for (int c = 0; c < w.components && !status && !outside; c++)
 			spread_component(&w, c, threads_of(&w, threads), &s, mesh[w.which[c]]);
 		pm_tile_stretches_free(&s);
 		if (!status)
 			*strays = w.o->strays;
 		pm_pass_end(&w);
+		if (outside) {
+			pm_order_cache_free(w.o);
+			memset(mesh[0], 0, pm_grid_size(&t->grid) * sizeof *mesh[0]);
+			assume = outside = done[0] = false;
+			continue;
+		}
 		pm_order_cache_leave(t, w.o);
 	}
 	return status;
