@@ -4,6 +4,7 @@
 #define PM_TRANSFER_GATHER_IN_PLACE_H
 
 #include "transfer/order-cache.h"
+#include "transfer/tile-results.h"
 
 /* Times factor, to who takes them; the numbers he gets are places in the stream. *done false: it cannot be done with this order of the particles, or would
  * take longer than by tiles. 0 or failure. */

@@ -76,7 +76,7 @@ static bool put_arrays(const struct staggered *s, size_t p, size_t m, const doub
 	const struct pm_tile_order *o = s->o;
 	const int components = s->t->components;
 	if (!s->few && !s->results)
-		return pm_tile_order_deliver_arrays(o, p, m, values, components, &s->to);
+		return pm_tile_results_deliver_arrays(o, p, m, values, components, &s->to);
 	double results[PM_TILE_ORDER_PACK * PM_COMPONENTS], *to = s->few ? results : s->results + p * (size_t)components;
 	for (size_t i = 0; i < m; i++)
 		for (int c = 0; c < components; c++)
@@ -131,7 +131,7 @@ static bool gather_job(const struct staggered *s, const struct pm_tile_job *j, s
 		else if (s->results)
 			memcpy(s->results + p * components, values, t.count * components * sizeof *values);
 		else
-			finite &= pm_tile_order_deliver(o, p, t.count, t.components, values, t.components, &s->to);
+			finite &= pm_tile_results_deliver(o, p, t.count, t.components, values, t.components, &s->to);
 	}
 	return finite;
 }
@@ -220,11 +220,11 @@ int pm_gather_staggered(const struct pm_transfer *t, size_t n, const struct pm_c
 	status = status ? status : find_axes(&s);
 	status = status ? status : gather_all(&s, n, mesh, &finite);
 	if (!status && s.few)
-		status = pm_tile_order_return_floats(s.o, s.few, t->components, t->components, &s.to);
+		status = pm_tile_results_return_floats(s.o, s.few, t->components, t->components, &s.to);
 	else if (!status && s.results)
-		status = pm_tile_order_return(s.o, s.results, t->components, t->components, &s.to, &finite);
+		status = pm_tile_results_return(s.o, s.results, t->components, t->components, &s.to, &finite);
 	if (!status) {
-		pm_tile_order_leave_strays(s.o, t->components, &s.to);
+		pm_tile_results_leave_strays(s.o, t->components, &s.to);
 		*strays = s.strays;
 		strays->finite = finite;
 	}

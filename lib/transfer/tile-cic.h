@@ -3,7 +3,7 @@
 #ifndef PM_TRANSFER_TILE_CIC_H
 #define PM_TRANSFER_TILE_CIC_H
 
-#include "transfer/tile-order.h"
+#include "transfer/tile-results.h"
 
 /* Whether eight or four particles at a time are worth it: where a register holds less, the loops over records are faster. */
 enum { PM_TILE_CIC_EIGHT = (int)PM_SIMD_PART == (int)PM_SIMD_WIDTH };

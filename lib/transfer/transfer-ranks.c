@@ -420,7 +420,7 @@ static void put_back(const struct pass *a, size_t at, size_t n, const double *va
 		memcpy(results + (at + p) * to, values + p * stride, k * sizeof *values);
 	for (size_t p = 0, m; p < n && !o->tile; p += m) {
 		m = n - p < PM_TILE_ORDER_PACK ? n - p : PM_TILE_ORDER_PACK;
-		*bad |= !pm_tile_order_unpack(at + p, m, (int)stride, values + p * stride, (int)k, r);
+		*bad |= !pm_tile_results_unpack(at + p, m, (int)stride, values + p * stride, (int)k, r);
 	}
 }
 
@@ -479,7 +479,7 @@ static int gather(int status, struct pass *a, const double *const mesh[], const 
 	if (!status && v->local->order.tile) {
 		const struct pm_tile_order *o = &v->local->order;
 		const int k = v->w.components;
-		status = pm_tile_order_return(o, v->w.results ? v->w.results : o->records, v->w.results ? k : o->stride, k, results, finite);
+		status = pm_tile_results_return(o, v->w.results ? v->w.results : o->records, v->w.results ? k : o->stride, k, results, finite);
 		if (!v->w.results)
 			pm_tile_order_spend(&v->local->order);
 	}

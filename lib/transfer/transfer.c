@@ -182,11 +182,11 @@ static bool gather_in_order(const struct pm_pass *w, const struct pm_tile_job *j
 		pm_tile_order_pack(&o, p, t.count, false, packed);
 		loop(&t);
 		if (r->taker) {
-			pm_tile_order_hand_over(&w->o->order, p, t.count, t.to, t.results, w->components, r);
+			pm_tile_results_hand_over(&w->o->order, p, t.count, t.to, t.results, w->components, r);
 			continue;
 		}
 		finite &= o.floats ? leave_results(w, p, t.count, t.stride, packed, r)
-				   : pm_tile_order_deliver(&o, p, t.count, t.stride, packed, w->components, r);
+				   : pm_tile_results_deliver(&o, p, t.count, t.stride, packed, w->components, r);
 	}
 	return finite;
 }
@@ -222,7 +222,7 @@ static bool gather_batches(const struct pm_pass *w, const struct pm_tile_job *j,
 		if (r->taker)
 			r->taker->take(r->taker->data, o, p, m, places, value);
 		else
-			finite &= pm_tile_order_deliver_arrays(o, p, m, values[0], w->components, &(struct pm_tile_results){then, r->set, r->to, NULL, NULL});
+			finite &= pm_tile_results_deliver_arrays(o, p, m, values[0], w->components, &(struct pm_tile_results){then, r->set, r->to, NULL, NULL});
 	}
 	return finite;
 }
@@ -547,12 +547,12 @@ int pm_gather_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 		bool seen = !status && pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
 		const struct pm_tile_order *o = status ? NULL : &w.o->order;
 		if (o && w.few)
-			status = pm_tile_order_return_floats(o, w.few, w.few_to, w.components, &r);
+			status = pm_tile_results_return_floats(o, w.few, w.few_to, w.components, &r);
 		else if (o && (o->records || o->floats))
-			status = pm_tile_order_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, &r, &seen);
+			status = pm_tile_results_return(o, w.results ? w.results : o->records, w.results ? w.components : o->stride, w.components, &r, &seen);
 		finite = finite && seen;
 		if (o)
-			pm_tile_order_leave_strays(o, w.components, &r);
+			pm_tile_results_leave_strays(o, w.components, &r);
 		if (!status)
 			*strays = w.o->strays;
 		bool in_use = w.o && t->kept && *t->kept == &w.o->note;
@@ -590,11 +590,13 @@ int pm_gather_taken(const struct pm_transfer *t, size_t n, const struct pm_colum
 	status = begin_gather(&w, n, x, &r, threads);
 	bool finite = !status && pm_pass_gather_all(&w, threads_of(&w, threads), mesh, &r);
 	if (!status && w.o->order.records)
-		status = pm_tile_order_return(&w.o->order, w.results ? w.results : w.o->order.records, w.results ? w.components : w.o->order.stride,
+		status = pm_tile_results_return(&w.o->order, w.results ? w.results : w.o->order.records, w.results ? w.components : w.o->order.stride,
 			w.components, &r, &finite);
 	if (w.o && w.o->order.records)
 		pm_tile_order_spend(&w.o->order);
 	pm_pass_end(&w);
+	if (!o)
+		pm_order_cache_free(w.o);
 	return status;
 }
 
