@@ -58,14 +58,16 @@ static int shelf_trim(struct block *out[shelf_size])
 	return n;
 }
 
-/* The smallest block of at least this size, of those freed last, and at most a quarter larger: what ranks send each other differs from step to step. */
+/* The smallest block of at least this size, of those freed last, and at most a third larger (and rounded to pages): what ranks send each other differs from
+ * step to step, and a vector of three takes the place of records of four numbers. */
 static struct block *shelf_take(size_t bytes)
 {
+	const size_t larger = bytes / 3 + (bytes >= large ? huge : 0);
 	struct block *found = NULL;
 	int best = -1;
 	pthread_mutex_lock(&shelf_lock);
 	for (int i = 0; i < shelved; i++)
-		if (shelf[i]->bytes >= bytes && shelf[i]->bytes - bytes <= bytes / 4 && (best < 0 || shelf[i]->bytes < shelf[best]->bytes))
+		if (shelf[i]->bytes >= bytes && shelf[i]->bytes - bytes <= larger && (best < 0 || shelf[i]->bytes < shelf[best]->bytes))
 			best = i;
 	if (best >= 0)
 		found = off_shelf(best);

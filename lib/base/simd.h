@@ -52,6 +52,7 @@ typedef double pm_simd4_at __attribute__((vector_size(32), aligned(8), may_alias
 typedef double pm_simd8_at __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int32_t pm_simd4_int_at __attribute__((vector_size(16), aligned(4), may_alias));
 typedef int32_t pm_simd_int __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t))));
+typedef uint32_t pm_simd_uint __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(uint32_t))));
 typedef int32_t pm_simd_int_at __attribute__((vector_size(PM_SIMD_WIDTH * sizeof(int32_t)), aligned(4), may_alias));
 
 /* Before a short loop over vectors, which must vanish if they are to stay in registers: of at most 8 turns, of at most 16. */

@@ -29,7 +29,8 @@ struct pm_spread_job {
 /* Each 0 or failure. In declare(): */
 int pm_spread_choose(const struct pm_spread_choice *choice, const struct pm_frame *f, struct pm_spread_job *j);
 int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f);
-/* With the data, all of it (*outside counts the particles left out); or in parts: the mesh grows, then set by set, then what the law adds to its density. */
+/* With the data, all of it (*outside counts the particles left out);
+ * or in parts: the mesh grows, then set by set (`first`: the mesh is still zero), then what the law adds to its density. */
 int pm_spread_all(struct pm_spread_job *j, struct pm_frame *f, struct pm_fft_plans *plans, uint64_t *outside);
 int pm_spread_grow(struct pm_spread_job *j, struct pm_frame *f);
 int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char *set, bool first, struct pm_fft_plans *plans, uint64_t *outside);

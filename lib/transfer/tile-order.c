@@ -72,24 +72,26 @@ static void find_tiles(const struct pm_tile_order *o, size_t m, double u[3][batc
  * lanes. */
 PM_SIMD_INLINE bool tiles_of(int dim, const struct pm_tile_order *o, const struct pm_axis_lanes *lanes, const double *const x[3], size_t m, uint32_t *tile)
 {
-	const int *shift = pm_tile_shift[dim], across = (int)o->across[0], layer = (int)(o->across[0] * o->across[1]);
+	const int *shift = pm_tile_shift[dim];
+	const uint32_t across = o->across[0], layer = o->across[0] * o->across[1];
 	struct pm_axis_lanes mine[3]; /* what is stored here might be those of the caller, and they would be loaded again and again */
 	unsigned any = 0;
 	PM_SIMD_UNROLL
 	for (int d = 0; d < dim; d++)
 		mine[d] = lanes[d];
 	for (size_t i = 0; i < m; i += PM_SIMD_WIDTH) {
-		pm_simd_int at = {0}, cell;
+		pm_simd_int cell;
+		pm_simd_uint at = {0}; /* what strays have is not used */
 		PM_SIMD_UNROLL
 		for (int d = 0; d < dim; d++) {
 			unsigned outside;
 			const pm_simd a = pm_simd_load_any(x[d] + i);
 			pm_simd_split(pm_axis_locate_eight(&mine[d], a, &outside), &cell);
 			pm_tile_fetch_ahead(x[d] + i);
-			at += (cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
+			at += (pm_simd_uint)(cell >> shift[d]) * (d == 0 ? 1 : d == 1 ? across : layer);
 			any |= outside;
 		}
-		*(pm_simd_int_at *)(tile + i) = at;
+		*(pm_simd_int_at *)(tile + i) = (pm_simd_int)at;
 	}
 	return !any;
 }
@@ -682,14 +684,25 @@ static size_t first_of(const struct pm_tile_order *o, size_t tile, size_t from, 
 	return low;
 }
 
+/* Whether nearly all particles are in tiles that have many: those of others are looked at for themselves (transfer.c), as a count does. */
+static bool are_dense(const struct pm_tile_order *o)
+{
+	size_t few = 0;
+	for (size_t t = 0; t < o->tiles; t++) {
+		const size_t count = o->begin[t + 1] - o->begin[t];
+		few += count < PM_TILE_CELLS / 4 ? count : 0;
+	}
+	return few < o->n / 8;
+}
+
 /* True if the stream seems to be in order; then begin[] is that of such a stream. */
 static bool assume_order(struct pm_tile_order *o)
 {
-	enum { least = 8192 };
+	enum { least = 8192, each = 256 }; /* particles; of a tile, in the mean: for fewer a search takes as long as a count */
 	for (int d = 0; d < o->dim; d++)
 		if (!o->x[d].doubles)
 			return false;
-	if (o->ways || o->n < least || o->n < 64 * o->tiles || !seems_in_order(o))
+	if (o->ways || o->n < least || o->n < each * o->tiles || !seems_in_order(o))
 		return false;
 	size_t guess = o->n / o->tiles;
 	o->begin[0] = 0;
@@ -698,7 +711,20 @@ static bool assume_order(struct pm_tile_order *o)
 		guess = o->begin[t] - o->begin[t - 1];
 	}
 	o->begin[o->tiles] = o->begin[o->tiles + 1] = o->n;
-	return o->assumed = true;
+	return o->assumed = are_dense(o);
+}
+
+bool pm_tile_order_all_in(const struct pm_tile_order *o, size_t tile, size_t p, size_t m)
+{
+	struct pm_axis_lanes lanes[3];
+	uint32_t at[batch], others = 0;
+	for (int d = 0; d < o->dim; d++)
+		lanes[d] = pm_axis_lanes(&o->axes[d]);
+	if (!batch_tiles(o, lanes, p, m, at))
+		return false;
+	for (size_t i = 0; i < m; i++)
+		others |= at[i] ^ (uint32_t)tile;
+	return !others;
 }
 
 static int count_tiles(struct pm_tile_order *o, const struct pm_axis axes[3])

@@ -24,7 +24,7 @@ struct pm_tile_order {
 	const struct pm_axis *axes;
 	struct pm_column x[3], v[3];
 	bool finite;          /* no position is NaN */
-	bool assumed;         /* that the stream is in order, from some of it: who reads all of it finds out */
+	bool assumed;         /* that the stream is in order, from some of it: who reads all of it finds out. Then cursor[] is not set */
 	bool ways;            /* of the particles from x to x + v dt */
 	double dt;
 	int nvalues;
@@ -65,6 +65,8 @@ void pm_tile_order_columns(const struct pm_tile_order *o, size_t p, size_t m, bo
 /* Its parts, of particles that stay: the values alone; signed lengths [cells] of m ways. */
 void pm_tile_order_values(const struct pm_tile_order *o, size_t p, size_t m, double *const to[]);
 void pm_tile_ways(double dt, double h, size_t m, const double *x, const double *v, double *length);
+/* Whether m particles of the stream from p on, m <= PM_TILE_ORDER_PACK, are in this tile. */
+bool pm_tile_order_all_in(const struct pm_tile_order *o, size_t tile, size_t p, size_t m);
 /* m values from p on in order: where they stand together those of the stream, else put together in few[m]. */
 const double *pm_tile_order_take(const struct pm_tile_order *o, size_t p, size_t m, const struct pm_column *from, double *few);
 #endif

@@ -1,7 +1,8 @@
 /* Spread and gather by tiles of cells: particles are sorted by tile (tile-order.c), each tile has its own block without faces (transfer-tile.c), and blocks
  * are added to or read from the mesh here, where points beyond a face are folded back with the sign of their image. A point's sum is
  * made of its tiles' sums, in the order of the tiles, each in the order of the stream: the same bytes for any number of threads.
- * Cost: two passes over the particles for the order, width^dim products each, a pass over the mesh. SPDX-License-Identifier: GPL-3.0-or-later */
+ * Cost: two passes over the particles for the order (none where it is assumed), width^dim products each, a pass over the mesh.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include <string.h>
 
@@ -95,6 +96,10 @@ void pm_pass_spread(const struct pm_pass *w, const struct pm_tile_job *j, int va
 		loop(&t);
 	for (size_t p = j->from; p < j->to && !w->o->order.records; p += t.count) {
 		t.count = j->to - p < PM_TILE_ORDER_PACK ? j->to - p : PM_TILE_ORDER_PACK;
+		if (w->outside && !squares && !pm_tile_order_all_in(&w->o->order, j->tile, p, t.count)) {
+			__atomic_store_n(w->outside, true, __ATOMIC_RELAXED);
+			return;
+		}
 		if (straight) {
 			const struct pm_column *values = &w->o->order.values[value];
 			const double *q = pm_tile_order_take(&w->o->order, p, t.count, values, packed);
@@ -445,13 +450,10 @@ int pm_spread(const struct pm_transfer *t, size_t n, const double *const x[], co
 	return pm_spread_columns(t, n, at, values, mesh, strays);
 }
 
-/* Only the loop over squares looks whether particles are in their tile. */
-static bool all_squares(const struct pm_pass *w)
+/* Of the loops only that over squares looks whether particles are in their tile. */
+static bool may_assume(const struct pm_transfer *t)
 {
-	bool all = spread_straight(3, w->t->kernel, true) == pm_tile_cic_spread;
-	for (size_t j = 0; j < w->p.jobs && all; j++)
-		all = pm_tile_has_squares(3, w->t->kernel, w->p.job[j].to - w->p.job[j].from);
-	return all;
+	return t->cleared && t->grid.dim == 3 && t->components == 1 && spread_straight(3, t->kernel, true) == pm_tile_cic_spread;
 }
 
 int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_column x[], const struct pm_column strength[], double *const mesh[],
@@ -467,16 +469,16 @@ int pm_spread_columns(const struct pm_transfer *t, size_t n, const struct pm_col
 		return pm_spread_ranks(t, n, at, values, mesh, strays);
 	}
 	while (n && !status && pm_pass_next(t, done, &w)) {
-		status = begin_spread(&w, n, x, strength, threads, assume && t->cleared && t->grid.dim == 3 && t->components == 1);
+		status = begin_spread(&w, n, x, strength, threads, assume && may_assume(t));
 		if (!status && w.o->order.assumed)
-			w.outside = &outside, outside = !all_squares(&w);
+			w.outside = &outside;
 		struct pm_tile_stretches s = {.count = 0};
 		status = status ? status : pm_pass_squares(&w, threads, 1);
 		if (!status) {
 			const struct pm_tile_target lines = mesh_of(&w, 0);
 			status = pm_tile_stretches_init(&s, &w.p, &lines, threads_of(&w, threads));
 		}
-		for (int c = 0; c < w.components && !status && !outside; c++)
+		for (int c = 0; c < w.components && !status; c++)
 			spread_component(&w, c, threads_of(&w, threads), &s, mesh[w.which[c]]);
 		pm_tile_stretches_free(&s);
 		if (!status)

@@ -28,7 +28,7 @@ struct pm_transfer {
 	struct pm_note **kept;   /* NULL, or where the order of these positions may be found and left (the note of their field) */
 	const struct pm_planes *planes; /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call, strays are those here */
 	const struct pm_gradient_later *gradient; /* gather: NULL, or the field's three components in place of mesh[] (mesh/gradient-later.h) */
-	bool cleared;            /* spread: the mesh is zero, and may be cleared again */
+	bool cleared;            /* spread: what the mesh has now may be cleared: it is zero, or not wanted */
 	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };
 
