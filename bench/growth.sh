@@ -38,17 +38,19 @@ scratch=$(mktemp -d /dev/shm/pm-growth-XXXXXX)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
-# works STEPS SENTENCE FILE: `word seconds` of the words of a run and of cycle as a whole; both pushes together.
+# works STEPS SENTENCE FILE: `word seconds` of the words of a run and of cycle as a whole; both pushes together, which do what mgrad and m2p leave to
+# them.
 works() {
 	rm -f times
 	cycle -q -n "$1" --timing times -i "$3" -o /dev/null "$2"
-	awk -F'\t' '{ sub(/ .*/, "", $1); s[$1] += $3 } END { for (w in s) print w, s[w] }' times
+	awk -F'\t' '{ sub(/ .*/, "", $1); s[$1] += $3 }
+		END { s["m2p+push"] = s["push"] + s["m2p"] + s["mgrad"]; delete s["push"]; delete s["m2p"]; delete s["mgrad"]; for (w in s) print w, s[w] }' times
 }
-# measures FRAMES FILE: diag of a stream that many frames long.
+# measures WORD FRAMES FILE: a word alone, of a stream that many frames long.
 measures() {
 	rm -f times
-	for _ in $(seq "$1"); do cat "$2"; done | diag --timing times >/dev/null
-	awk -F'\t' '{ print "diag", $3 }' times
+	for _ in $(seq "$2"); do cat "$3"; done | "$1" --timing times >/dev/null
+	awk -F'\t' -v w="$1" '{ print w, $3 }' times
 }
 # rows N STEPS LESS MORE: of the rounds in the files LESS.* and MORE.*, which differ by so many steps.
 rows() {
@@ -72,11 +74,16 @@ for cells; do
 		works 3 'push drift | p2m --kernel cic | poisson-mg' start.pm | grep poisson >"more.$r"
 	done
 	rows "$n" 2 less more
-	for r in $rounds; do
-		measures 1 start.pm >"less.$r"
-		measures 3 start.pm >"more.$r"
+	mgrad -i start.pm -o field.pm
+	frames=$((n < 100000 ? 200000 / n : 2))
+	for word in 'diag start.pm' 'mgrad start.pm' 'm2p field.pm'; do
+		read -r name file <<<"$word"
+		for r in $rounds; do
+			measures "$name" 1 "$file" >"less.$r"
+			measures "$name" $((1 + frames)) "$file" >"more.$r"
+		done
+		rows "$n" "$frames" less more
 	done
-	rows "$n" 2 less more
 	if type -P time >/dev/null; then
 		for engine in fused pipes; do
 			command time -f %M -o peak cycle -q -n 1 --engine "$engine" -i start.pm -o /dev/null "$step"
