@@ -44,7 +44,8 @@ works() {
 	rm -f times
 	cycle -q -n "$1" --timing times -i "$3" -o /dev/null "$2"
 	awk -F'\t' '{ sub(/ .*/, "", $1); s[$1] += $3 }
-		END { s["m2p+push"] = s["push"] + s["m2p"] + s["mgrad"]; delete s["push"]; delete s["m2p"]; delete s["mgrad"]; for (w in s) print w, s[w] }' times
+		END { s["m2p+push"] = s["push"] + s["m2p"] + s["mgrad"]; delete s["push"]; delete s["m2p"]; delete s["mgrad"]
+			for (w in s) print w, s[w] }' times
 }
 # measures WORD FRAMES FILE: a word alone, of a stream that many frames long.
 measures() {
