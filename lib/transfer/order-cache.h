@@ -20,7 +20,8 @@ struct pm_order_cache {
 	struct pm_strays strays;
 };
 
-/* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. */
+/* NULL with a message. The records carry nvalues values, and have room for at least `room` doubles. assume: as in tile-order.h;
+ * who does looks on the way whether it is so. */
 struct pm_order_cache *pm_order_cache_new(const struct pm_transfer *t, const unsigned char staggered[3], size_t n, const struct pm_column x[], int nvalues,
 	const struct pm_column values[], int room, bool assume);
 struct pm_order_cache *pm_order_cache_free(struct pm_order_cache *o); /* when the last of its holders gives it back */

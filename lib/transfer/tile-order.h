@@ -33,8 +33,8 @@ struct pm_tile_order {
 
 /* Particles: n positions x[dim], and values[nvalues] that travel along. `stays`: not 0, and where the runs (tile-runs.h) of 64 particles have at most so many
  * eights, in the mean from the beginning of a thread's part up to any place of it, particles are not moved, and only the runs are kept. `finite`: no position
- * is NaN, which is to be found as a stray. v[dim] not NULL: their ways x..x + v dt, which stay, or become floats: from a stream of doubles that is far from the
- * order of tiles neither records nor runs are made. */
+ * is NaN, which is to be found as a stray. `assume`: a stream of doubles that seems to be in order is taken to be (`assumed`, above). v[dim] not NULL: their
+ * ways x..x + v dt, which stay, or become floats: from a stream of doubles that is far from the order of tiles neither records nor runs are made. */
 enum { PM_STAY_FEW = 21, PM_STAY_WIDE = 26 }; /* measured: of one number or a vector; of E and B, or ways */
 struct pm_tile_particles {
 	int dim, nvalues;
