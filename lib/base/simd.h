@@ -228,6 +228,20 @@ PM_SIMD_INLINE pm_simd pm_simd_lanes_from(int k, pm_simd a, pm_simd b)
 #undef PM_SIMD_FROM
 }
 
+/* Adds v, moved k lanes up, to two vectors one behind the other, 0 < k < PM_SIMD_WIDTH, a constant. Lanes that it does not come to stay, or have 0 added. */
+PM_SIMD_INLINE void pm_simd_add_moved(int k, pm_simd v, pm_simd *low, pm_simd *high)
+{
+#ifdef __AVX512F__ /* one way round the lanes in place of two */
+	const pm_simd round = pm_simd_lanes_from(PM_SIMD_WIDTH - k, v, v);
+	*low = (pm_simd)_mm512_mask_add_pd((__m512d)*low, (__mmask8)(0xff << k), (__m512d)*low, (__m512d)round);
+	*high = (pm_simd)_mm512_mask_add_pd((__m512d)*high, (__mmask8)(0xff >> (8 - k)), (__m512d)*high, (__m512d)round);
+#else
+	const pm_simd zero = {0};
+	*low += pm_simd_lanes_from(PM_SIMD_WIDTH - k, zero, v);
+	*high += pm_simd_lanes_from(PM_SIMD_WIDTH - k, v, zero);
+#endif
+}
+
 /* Two vectors in order to the values of even and of odd number, and back. */
 PM_SIMD_INLINE pm_simd pm_simd_even(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (0, 2, 4, 6, 8, 10, 12, 14), (0, 2, 4, 6), (0, 2)); }
 PM_SIMD_INLINE pm_simd pm_simd_odd(pm_simd low, pm_simd high) { return PM_SIMD_PICK(low, high, (1, 3, 5, 7, 9, 11, 13, 15), (1, 3, 5, 7), (1, 3)); }

@@ -139,6 +139,11 @@ static double strain_of_row(const struct pm_grid *g, const struct pm_planes *p, 
 	return most;
 }
 
+double pm_strain_in_plane(const struct pm_grid *g, size_t n, const double *here, const double *below, const double *above)
+{
+	return most_of_row(2, 0, n, here, 1 / (2 * g->h[0]), &(struct beside){.below = {NULL, below}, .above = {NULL, above}, .per = {0, 1 / (2 * g->h[1])}});
+}
+
 static double strain(const struct pm_grid *g, const struct pm_planes *p, int components, const double *const u[])
 {
 	const size_t n = g->points[0], rows = p->here * p->size / n, first = p->first * p->size;

@@ -9,6 +9,8 @@
 double pm_most(const struct pm_field *y, const double *h);
 /* Largest |grad u| on a mesh, 1/time: over points and components of sum_d |du_c/dx_d|, by differences of order 2, one-sided at the last nodes. */
 double pm_strain(const struct pm_grid *g, const struct pm_field *field, const double *const u[]);
+/* The same of a component at n points of a row of a mesh in the plane, between the points on either side of them and those of the rows below and above. */
+double pm_strain_in_plane(const struct pm_grid *g, size_t n, const double *here, const double *below, const double *above);
 /* sum q^2/m over the particles of a set, from its strength and mass. */
 double pm_charge_over_mass(size_t n, const double *q, const double *m);
 /* omega_p of the sets of a frame that move and have the law's strength and `per`, both loaded; 0 if there are none. */

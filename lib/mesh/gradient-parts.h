@@ -14,8 +14,8 @@ int pm_operator_reach(const struct pm_operator *o, const struct pm_planes *plane
  * order; a failure is of this rank alone. */
 int pm_operator_apply_planes(const struct pm_operator *o, double factor, const struct pm_field *field, const double *const in[], double *const out[],
 	bool *seen);
-/* Weights of the order/2 pairs of nodes, near to far, of a first derivative along an axis: term number `axis` of a gradient. */
-void pm_operator_pairs(const struct pm_operator *o, int axis, double factor, double w[3]);
+/* Weights of the order/2 pairs of nodes, near to far, of a term of a scalar's first derivatives. */
+void pm_operator_pairs(const struct pm_operator *o, int term, double factor, double w[3]);
 /* Do images of a component change sign at a face? */
 bool pm_operator_odd(const struct pm_operator *o, int component, int axis, int side);
 

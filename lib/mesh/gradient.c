@@ -113,9 +113,9 @@ static struct pm_difference_axis axis_of(const struct pm_operator *o, int compon
 	return a;
 }
 
-void pm_operator_pairs(const struct pm_operator *o, int axis, double factor, double w[3])
+void pm_operator_pairs(const struct pm_operator *o, int term, double factor, double w[3])
 {
-	const struct pm_difference_axis a = axis_of(o, 0, axis, factor * o->term[axis].sign);
+	const struct pm_difference_axis a = axis_of(o, 0, o->term[term].axis, factor * o->term[term].sign);
 	for (int k = 0; k < o->order / 2; k++)
 		w[k] = a.regular.w[2 * k];
 }

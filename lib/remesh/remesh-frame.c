@@ -8,6 +8,7 @@
 #include "remesh/remesh-frame.h"
 #include "stream/declare.h"
 #include "stream/parts.h"
+#include "transfer/on-nodes.h"
 #include "world/world.h"
 
 /* The treatment of a field. */
@@ -250,6 +251,17 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 	return pm_world_agree(status);
 }
 
+/* Every node of a periodic mesh has become a particle: p2m and m2p need not look whether all stand on nodes. */
+static void note_nodes(const struct pm_frame *f, const char *set, const struct pm_grid *g, const struct work *w)
+{
+	const struct pm_field *x = pm_frame_field(f, set, "x");
+	bool all = !w->shared && w->r.kept == pm_grid_size(g) && x->type == PM_F64;
+	for (int d = 0; d < g->dim; d++)
+		all = all && g->face[d][0] == PM_PERIODIC;
+	if (all)
+		pm_on_nodes_keep(g, x);
+}
+
 static int keep_overlap(struct pm_frame *f, const char *set, const struct pm_mesh *m, const struct work *w)
 {
 	const struct pm_field *volume = pm_frame_field(f, set, "volume");
@@ -370,6 +382,8 @@ int pm_remesh_set(struct pm_frame *f, const char *set, const struct pm_mesh *m, 
 		loss->square = 1 - kept / square;
 	if (!status)
 		status = balance(f, set, &before, loss);
+	if (!status)
+		note_nodes(f, set, &g, &w);
 	if (!status && c->overlap)
 		status = keep_overlap(f, set, m, &w);
 	pm_remesh_free(&w.r);

@@ -252,11 +252,10 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f)
 	return status || j->choice.field ? status : pm_gather_limits_declare(j, f);
 }
 
-/* The gradient that the field is left as, if it can be gathered so to all sets: nothing else is on the mesh, or asks for the field. */
-static const struct pm_gradient_later *left_of(const struct pm_gather_job *j)
+const struct pm_gradient_later *pm_gather_gradient(const struct pm_gather_job *j)
 {
 	const bool alone = !j->changes.n && !j->interlaced && !j->choice.beside && j->field->role != PM_STATE;
-	return alone && j->transfer.components == 3 ? pm_gradient_later_of(j->field) : NULL;
+	return alone ? pm_gradient_later_of(j->field) : NULL;
 }
 
 /* The field on both of its meshes. */
@@ -283,7 +282,7 @@ static struct pm_gather_arrays arrays_of(const struct pm_gather_job *j, const st
 	double same)
 {
 	struct pm_gather_arrays a = {.t = j->transfer, .n = target->count, .columns = target->use & PM_USE_COLUMNS};
-	a.t.gradient = left_of(j);
+	a.t.gradient = pm_gather_gradient(j);
 	const double *volume = j->choice.field && target->extensive ? pm_in(pm_frame_field(f, set, "volume"), 0) : NULL;
 	for (int d = 0; d < f->dim && a.columns; d++)
 		a.at[d] = pm_column_of(pm_frame_field(f, set, "x"), d);
@@ -317,7 +316,7 @@ static int gather_arrays(const struct pm_gather_arrays *a, struct pm_strays *str
 			  : pm_gather(&a->t, a->n, a->x, a->mesh, a->factor, a->out, strays);
 }
 
-/* Are all particles on nodes? Their field is then copied, and nothing of it is left to be made. */
+/* Are all particles on nodes? Their field is then copied, or made for them. */
 static int look_for_nodes(const struct pm_gather_job *j, const struct pm_frame *f, const char *set, struct pm_gather_arrays *a)
 {
 	const struct pm_field *x = pm_frame_field(f, set, "x");
@@ -331,9 +330,6 @@ static int look_for_nodes(const struct pm_gather_job *j, const struct pm_frame *
 	if (status || !on)
 		return status;
 	a->on_nodes = x;
-	a->t.gradient = NULL;
-	for (int c = 0; c < a->t.components; c++)
-		a->mesh[c] = pm_in(j->field, c);
 	return 0;
 }
 

@@ -2,6 +2,7 @@
 #ifndef PM_TRANSFER_GATHER_FRAME_H
 #define PM_TRANSFER_GATHER_FRAME_H
 
+#include "mesh/gradient-later.h"
 #include "mesh/planes.h"
 #include "transfer/interlace.h"
 #include "transfer/mesh-changes.h"
@@ -44,7 +45,10 @@ int pm_gather_declare(const struct pm_gather_job *j, struct pm_frame *f);
 /* With the data: first the part common to all sets, then set by set; *dropped counts the particles left out; then the monopole. Free in any case. */
 int pm_gather_prepare(struct pm_gather_job *j, const struct pm_frame *f, struct pm_fft_plans *plans);
 int pm_gather_set(struct pm_gather_job *j, struct pm_frame *f, const char *set, uint64_t *dropped);
-/* Private to lib/transfer (gather-outside.c): */
+/* Private to lib/transfer: the gradient that the field is left as, if it can be gathered so to all sets: nothing else is on the mesh, or asks for the
+ * field; else NULL. */
+const struct pm_gradient_later *pm_gather_gradient(const struct pm_gather_job *j);
+/* And (gather-outside.c): */
 int pm_gather_outside_choose(struct pm_gather_job *j, const struct pm_frame *f);
 struct pm_field *pm_gather_target(const struct pm_gather_job *j, const struct pm_frame *f, const char *set);
 /* For m2p, after all sets: */

@@ -12,6 +12,7 @@
 #include "stream/limits.h"
 #include "stream/over-stretches.h"
 #include "transfer/gather-limits.h"
+#include "transfer/tile-gradient.h"
 
 static bool is_flow(const struct pm_gather_job *j) { return !strcmp(j->law->of, "x"); }
 static bool self(const struct pm_gather_job *j) { return j->field->role != PM_STATE && j->law->strength && j->law->coefficient; }
@@ -35,12 +36,58 @@ int pm_gather_limits_declare(const struct pm_gather_job *j, struct pm_frame *f)
 	return 0;
 }
 
+/* The most nodes of a row that are made at once, and with those on either side their distance from row to row. */
+enum { PIECE = 1024, APART = PIECE + 16 };
+
+/* Nodes from-1..to of row y, to room[component][3 APART]. */
+static void make_piece(const struct pm_gradient_later *l, size_t from, size_t to, size_t y, double *room)
+{
+	const size_t n = l->operator.grid.points[0], low = from ? from - 1 : 0, high = to < n ? to + 1 : n;
+	if (!from)
+		pm_tile_gradient_row(l, (const size_t[]){n - 1, y, 0}, 1, room, 3 * APART);
+	pm_tile_gradient_row(l, (const size_t[]){low, y, 0}, high - low, room + !from, 3 * APART);
+	if (to == n)
+		pm_tile_gradient_row(l, (const size_t[]){0, y, 0}, 1, room + 1 + to - from, 3 * APART);
+}
+
+/* Rows first..last-1 of a flow that is left to be made, of which the nodes from..to-1: one after the other, of which three are there. */
+static double strain_of_rows(const struct pm_gradient_later *l, size_t from, size_t to, size_t first, size_t last)
+{
+	const size_t rows = l->operator.grid.points[1];
+	double room[6 * APART], most = 0; /* [component][row % 3][APART] */
+	for (size_t y = first; y < last + 2; y++) { /* row y - 1 is made, then the one below has both its neighbours */
+		make_piece(l, from, to, (y + rows - 1) % rows, room + y % 3 * APART);
+		for (size_t c = 0; c < 2 && y >= first + 2; c++) {
+			const double *u = room + c * 3 * APART + 1;
+			const double *below = u + (y + 1) % 3 * APART, *here = u + (y + 2) % 3 * APART, *above = u + y % 3 * APART;
+			most = fmax(most, pm_strain_in_plane(&l->operator.grid, to - from, here, below, above));
+		}
+	}
+	return most;
+}
+
+/* Of a flow that is left to be made, in the plane. */
+static double strain_later(const struct pm_gradient_later *l)
+{
+	const size_t n = l->operator.grid.points[0], rows = l->operator.grid.points[1], pieces = (n + PIECE - 1) / PIECE;
+	const size_t parts = n * rows > pm_many_turns() / 4 ? (size_t)pm_threads() : 1;
+	double most = 0;
+#pragma omp parallel for collapse(2) num_threads((int)parts) schedule(static) reduction(max : most)
+	for (size_t t = 0; t < parts; t++)
+		for (size_t p = 0; p < pieces; p++)
+			most = fmax(most, strain_of_rows(l, p * PIECE, p + 1 < pieces ? (p + 1) * PIECE : n, rows * t / parts, rows * (t + 1) / parts));
+	return most;
+}
+
 void pm_gather_limits_prepare(struct pm_gather_job *j, const struct pm_frame *f)
 {
 	const double *u[PM_COMPONENTS];
-	for (int c = 0; c < j->field->components && is_flow(j); c++)
+	const struct pm_gradient_later *left = is_flow(j) && f->dim == 2 ? pm_gather_gradient(j) : NULL;
+	for (int c = 0; c < j->field->components && is_flow(j) && !left; c++)
 		u[c] = pm_in(j->field, c);
-	if (is_flow(j))
+	if (left)
+		j->limits.strain = strain_later(left);
+	else if (is_flow(j))
 		j->limits.strain = pm_strain(&j->transfer.grid, j->field, u);
 	else if (self(j) && j->law->per)
 		j->limits.oscillation = pm_plasma_frequency(f, j->law);

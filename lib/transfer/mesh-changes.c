@@ -77,7 +77,7 @@ static int overlap(int status, const struct pm_frame *f, const struct pm_sets *s
 		volume = pm_in(pm_frame_field(f, sets->name[i], "volume"), 0);
 		status = pm_on_nodes(&one, at, &on);
 		if (!status)
-			status = on ? pm_on_nodes_spread(&one, at, &(struct pm_column){.doubles = volume}, &D)
+			status = on ? pm_on_nodes_spread(&one, at, &(struct pm_column){.doubles = volume}, false, &D)
 				    : pm_spread(&one, at->count, x, &volume, &D, &strays);
 	}
 	return status;

@@ -8,9 +8,10 @@
 #include "mesh/planes.h"
 #include "stream/kept.h"
 #include "transfer/on-nodes.h"
+#include "transfer/tile-gradient.h"
 #include "world/world.h"
 
-enum { PIECE = 4096, FEW = 16 };
+enum { PIECE = 4096, FEW = 16, PART = 488 /* not a page: gather-limits.c */ };
 
 struct nodes {
 	const struct pm_grid *g;
@@ -201,6 +202,14 @@ static void keep(const struct nodes *w, const struct pm_field *x)
 		pm_free(kept);
 }
 
+void pm_on_nodes_keep(const struct pm_grid *g, const struct pm_field *x)
+{
+	struct nodes w = {.g = g};
+	for (int d = 0; d < g->dim; d++)
+		w.high[d] = g->cells[d] - 1;
+	keep(&w, x);
+}
+
 int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on)
 {
 	struct nodes w;
@@ -267,6 +276,7 @@ static int spread_ranks(int status, const struct pm_transfer *t, const struct no
 
 struct spread {
 	int components;
+	bool replaces;
 	double scale;
 	const struct pm_column *strength;
 	double *const *mesh;
@@ -278,23 +288,26 @@ static void spread_run(const void *data, size_t node, size_t p, size_t m)
 	for (int c = 0; c < s->components; c++) {
 		double *to = s->mesh[c] + node;
 		const double *q = s->strength[c].doubles;
-		if (q)
+		if (q && s->replaces)
+			for (size_t k = 0; k < m; k++)
+				to[k] = 0 + q[p + k] * s->scale;
+		else if (q)
 			for (size_t k = 0; k < m; k++)
 				to[k] += q[p + k] * s->scale;
 		else
 			for (size_t k = 0; k < m; k++)
-				to[k] += pm_column_at(&s->strength[c], p + k) * s->scale;
+				to[k] = (s->replaces ? 0 : to[k]) + pm_column_at(&s->strength[c], p + k) * s->scale;
 	}
 }
 
-int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], double *const mesh[])
+int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], bool replaces, double *const mesh[])
 {
 	struct nodes w;
 	int status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
 	if (x->here)
 		status = spread_ranks(status, t, &w, strength, mesh);
 	else if (!status)
-		walk(&w, spread_run, &(struct spread){t->components, 1 / pm_grid_cell(&t->grid), strength, mesh});
+		walk(&w, spread_run, &(struct spread){t->components, replaces, 1 / pm_grid_cell(&t->grid), strength, mesh});
 	pm_free(w.room);
 	return status;
 }
@@ -304,6 +317,7 @@ struct gather {
 	const double *const *mesh; /* of ranks: what was gathered, by particles */
 	const struct pm_column *factor;
 	const struct pm_target *out;
+	const struct pm_gradient_later *gradient; /* what it is made of; NULL: mesh has it */
 	int *bad;
 };
 
@@ -330,13 +344,30 @@ static bool take(const struct gather *g, int c, const double *from, size_t p, si
 	return pm_finite_few(m, to);
 }
 
+static bool make_and_take(const struct gather *g, const size_t at[3], size_t p, size_t m)
+{
+	double made[3][PART];
+	bool finite = true;
+	pm_tile_gradient_row(g->gradient, at, m, made[0], PART);
+	for (int c = 0; c < g->t->components; c++)
+		finite &= take(g, c, made[c], p, m);
+	return finite;
+}
+
 static void gather_run(const void *data, size_t node, size_t p, size_t m)
 {
 	const struct gather *g = data;
-	for (int c = 0; c < g->t->components; c++)
-		if (!take(g, c, g->mesh[c] + node, p, m))
+	const size_t *points = g->t->grid.points;
+	bool finite = true;
+	for (int c = 0; c < g->t->components && !g->gradient; c++)
+		finite &= take(g, c, g->mesh[c] + node, p, m);
+	for (size_t i = 0, many; i < m && g->gradient; i += many, node += many) {
+		many = m - i < PART ? m - i : PART;
+		finite &= make_and_take(g, (const size_t[]){node % points[0], node / points[0] % points[1], node / points[0] / points[1]}, p + i, many);
+	}
+	if (!finite)
 #pragma omp atomic write
-			*g->bad = 1;
+		*g->bad = 1;
 }
 
 static int gather_ranks(int status, const struct nodes *w, const double *const mesh[], const struct gather *g)
@@ -356,7 +387,7 @@ int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, co
 {
 	struct nodes w;
 	int bad = 0, status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
-	const struct gather g = {t, mesh, factor, out, &bad};
+	const struct gather g = {t, mesh, factor, out, t->gradient, &bad};
 	*strays = (struct pm_strays){.count = 0};
 	if (x->here)
 		status = gather_ranks(status, &w, mesh, &g);

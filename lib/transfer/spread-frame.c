@@ -59,7 +59,11 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 		.outside = j->outside == PM_OUTSIDE_DROP || !j->law->strength || j->law->vector || strcmp(j->strength, j->law->strength) ? j->outside :
 			PM_OUTSIDE_MONOPOLE};
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
-	return status ? status : pm_makes_density(f, j->mesh, &density, add);
+	status = status ? status : pm_makes_density(f, j->mesh, &density, add);
+	struct pm_field *made = status ? NULL : pm_frame_field(f, j->mesh->name, j->density);
+	if (made && made->use & PM_USE_NEW)
+		made->use |= PM_USE_FILL; /* spread() clears it, where particles on nodes do not make every value */
+	return status;
 }
 
 int pm_spread_declare(const struct pm_spread_job *j, struct pm_frame *f)
@@ -111,6 +115,7 @@ struct spread_arrays {
 	const double *x[3], *q[PM_COMPONENTS];
 	struct pm_column at[3], values[PM_COMPONENTS];
 	double *mesh[PM_COMPONENTS];
+	size_t points;
 };
 
 static int spread(const struct pm_spread_job *j, const struct pm_transfer *t, const struct pm_field *x, struct spread_arrays *a, struct pm_fft_plans *plans,
@@ -120,8 +125,11 @@ static int spread(const struct pm_spread_job *j, const struct pm_transfer *t, co
 	int status = j->choice.interlace || j->choice.add ? 0 : pm_on_nodes(t, x, &on);
 	if (!a->columns && on)
 		pm_columns_of(t->components, a->q, a->values);
+	const bool all = on && !x->here && x->count == pm_grid_size(&t->grid);
+	for (int c = 0; c < t->components && t->cleared && !all; c++)
+		memset(a->mesh[c], 0, a->points * sizeof *a->mesh[c]);
 	if (status || on)
-		return status ? status : pm_on_nodes_spread(t, x, a->values, a->mesh);
+		return status ? status : pm_on_nodes_spread(t, x, a->values, t->cleared && all, a->mesh);
 	if (a->columns)
 		return pm_spread_columns(t, x->count, a->at, a->values, a->mesh, strays);
 	return j->choice.interlace ? pm_interlace_spread(t, plans, x->count, a->x, a->q, a->mesh, strays)
@@ -136,7 +144,7 @@ int pm_spread_set(const struct pm_spread_job *j, struct pm_frame *f, const char 
 	double *made = NULL;
 	struct pm_strays strays = {.count = 0};
 	const struct pm_field *strength = pm_frame_field(f, set, j->strength);
-	struct spread_arrays a = {.columns = !j->choice.interlace && strength->extensive};
+	struct spread_arrays a = {.columns = !j->choice.interlace && strength->extensive, .points = density->count};
 	for (int d = 0; d < f->dim && a.columns; d++)
 		a.at[d] = pm_column_of(positions, d);
 	for (int c = 0; c < t.components && a.columns; c++)

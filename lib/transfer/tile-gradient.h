@@ -10,14 +10,16 @@ struct pm_tile_nodes {
 	const size_t *at[3];
 	size_t slots[3], from, to;
 };
-/* Their three components: to block[3][PM_BLOCK_MOST], or, if not NULL, to nodes as pm_tile_weave leaves them. */
+/* Their components: to block[dim][PM_BLOCK_MOST], or in space, if not NULL, to nodes as pm_tile_weave leaves them. */
 void pm_tile_gradient_of(const struct pm_gradient_later *l, const struct pm_tile_nodes *b, double *block, double *nodes);
-/* Of the eight nodes at[axis][2]; x runs fastest. */
+/* m nodes of a row, from at[axis] on: to[components][apart]. */
+void pm_tile_gradient_row(const struct pm_gradient_later *l, const size_t at[3], size_t m, double *to, size_t apart);
+/* In space: of the eight nodes at[axis][2]; x runs fastest. */
 void pm_tile_gradient_beside(const struct pm_gradient_later *l, const size_t at[3][2], double node[8][3]);
 /* Asks for the potential that it reads, into the second-level cache. */
 void pm_tile_gradient_of_fetch(const struct pm_gradient_later *l, const struct pm_tile_nodes *b);
 
-/* The three components of a job's nodes, as pm_tile_load_block would read them from the mesh: to block[3][PM_BLOCK_MOST], or, if not NULL, to nodes as
+/* The components of a job's nodes, as pm_tile_load_block would read them from the mesh: to block[dim][PM_BLOCK_MOST], or in space, if not NULL, to nodes as
  * pm_tile_weave leaves them. */
 void pm_tile_gradient(const struct pm_gradient_later *l, const struct pm_tile_pass *p, const struct pm_tile_job *j, double *block, double *nodes);
 /* Asks for the potential that it reads for a job, if there is one, into the second-level cache. */

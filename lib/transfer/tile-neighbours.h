@@ -50,7 +50,6 @@ PM_SIMD_INLINE int planes_of(int dim, int width) { return dim > 2 ? width : 1; }
 PM_SIMD_INLINE void add_to_row(int width, const pm_simd *x, pm_simd f, double *row)
 {
 	const int size = (int)PM_SIMD_WIDTH, many = (2 * size + width - 2) / size; /* registers that it takes */
-	const pm_simd zero = {0};
 	pm_simd sum[most];
 	PM_SIMD_UNROLL
 	for (int i = 0; i < many; i++)
@@ -59,9 +58,10 @@ PM_SIMD_INLINE void add_to_row(int width, const pm_simd *x, pm_simd f, double *r
 	for (int k = width - 1; k >= 0; k--) {
 		const int i = k / size, up = k % size;
 		const pm_simd product = x[k] * f;
-		sum[i] += up ? pm_simd_lanes_from(size - up, zero, product) : product;
 		if (up)
-			sum[i + 1] += pm_simd_lanes_from(size - up, product, zero);
+			pm_simd_add_moved(up, product, &sum[i], &sum[i + 1]);
+		else
+			sum[i] += product;
 	}
 	PM_SIMD_UNROLL
 	for (int i = 0; i < many; i++)

@@ -11,6 +11,12 @@ mesh() { stab --plain --mesh mesh | awk 'NR > 1 { printf "%s%s", (NR > 2 ? " " :
 
 two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 
+@test "particles of two sets on all nodes: the second set is added to the first" {
+	awk 'BEGIN { print "x y mass vx vy"; for (j = 0; j < 20; j++) for (i = 0; i < 20; i++) print i / 4, j / 4, 1, 0, 0 }' |
+		stab - --law gravity --box 0,5 --faces periodic -n 20 --dt 0.1 >one
+	[ "$(stack --as one,other one one | p2m --kernel m4prime | mesh | tr ' ' '\n' | sort | uniq -c | tr -s ' ')" = ' 400 32' ]
+}
+
 @test "p2m needs no options: the law's strength goes to its density on the default mesh with its kernel" {
 	sh_ok 'pinit uniform -n 50 | p2m | sls'
 	[[ $output =~ rho\ +1\ f64\ derived\ value\ \[mass/length\^3\]\ kernel\ cic ]]

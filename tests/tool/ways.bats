@@ -314,6 +314,13 @@ vortices() {
 	all_ways vortices "" "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6" 3
 }
 
+@test "equal bytes: a flow in the plane that is left to be made, on all nodes and beside them" {
+	f='p2m --kernel m6prime | poisson-fft | mgrad | m2p'
+	all_ways "pinit taylor-green-2d --cells 37 --dt 0.1" "" "$f | push rk2 | remesh" 2
+	all_ways "pinit taylor-green-2d --cells 140 --dt 0.02" "" "${f/mgrad/mgrad --order 2} | push rk2 | remesh --cut-off 0.1" 2
+	all_ways "pinit uniform --dim 2 -n 3000 --cells 41" "" "${f/m6prime/tsc} | push kick drift" 1
+}
+
 @test "equal bytes: vortices remeshed onto an odd mesh when they are distorted" {
 	all_ways vortices "" "p2m -n 21x23 | poisson-fft | mgrad | diffuse --order 2 | m2p | push rk2 | remesh --when distortion --threshold 1e-3" 2
 }

@@ -1,10 +1,13 @@
-/* A gradient that is left to be made (lib/mesh/gradient-later.c): gathered from the potential, and made for who asks, it has the bytes of the one made at once.
+/* A gradient, or a curl in the plane, that is left to be made (lib/mesh/gradient-later.c): gathered from the potential, and made for who asks, it has the bytes
+ * of the one made at once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "check.h"
 #include "mesh/gradient-later.h"
 #include "stream/run.h"
+#include "stream/declare.h"
+#include "transfer/on-nodes.h"
 #include "transfer/tile-cic.h"
 #include "transfer/transfer-columns.h"
 
@@ -41,22 +44,23 @@ static double *room(size_t n)
 	return p;
 }
 
-/* size: of the potential. A box with faces of one kind. */
-static void begin(struct problem *p, const size_t cells[3], enum pm_face face, int order, double size)
+/* size: of the potential. A box with faces of one kind; in the plane where cells[2] is 1. */
+static void begin(struct problem *p, enum pm_operator_kind kind, const size_t cells[3], enum pm_face face, int order, double size)
 {
-	*p = (struct problem){.f = pm_frame_new(3)};
-	for (int d = 0; d < 3; d++)
+	const int dim = cells[2] > 1 ? 3 : 2;
+	*p = (struct problem){.f = pm_frame_new(dim)};
+	for (int d = 0; d < dim; d++)
 		p->f->face[d][0] = p->f->face[d][1] = face, p->f->lo[d] = -0.3, p->f->hi[d] = 1.9 + d;
 	const struct pm_mesh *mesh = pm_frame_mesh_new(p->f, "mesh", cells);
-	struct pm_field *phi = made(p->f, "phi", 1), *g = made(p->f, "g", 3);
+	struct pm_field *phi = made(p->f, "phi", 1), *g = made(p->f, "g", dim);
 	p->grid = pm_grid_of(p->f, mesh);
 	p->points = pm_grid_size(&p->grid);
 	for (size_t i = 0; i < p->points; i++)
 		pm_out(phi, 0)[i] = size * random_of(i, 0);
 	p->gradient = (struct pm_gradient){.source = phi, .target = g, .factor = -1};
-	if (pm_operator_init(&p->gradient.operator, &p->grid, PM_OP_GRAD, order, 1, false))
+	if (pm_operator_init(&p->gradient.operator, &p->grid, kind, order, 1, false))
 		exit(1);
-	for (int c = 0; c < 3; c++) {
+	for (int c = 0; c < dim; c++) {
 		p->at_once[c] = room(p->points), p->x[c] = room(MOST), p->a[c] = room(MOST), p->b[c] = room(MOST);
 		for (size_t i = 0; i < MOST; i++)
 			p->x[c][i] = p->grid.lo[c] + (random_of(i, 1 + (uint64_t)c) + 0.5) * (double)cells[c] * p->grid.h[c];
@@ -110,7 +114,7 @@ static bool largest_found(struct problem *p, size_t every)
 
 static bool equal(const struct problem *p, size_t n, const char *kernel)
 {
-	struct pm_transfer t = {.grid = p->grid, .kernel = pm_kernel_find(kernel), .components = 3, .set = {true, true, true}}, left = t;
+	struct pm_transfer t = {.grid = p->grid, .kernel = pm_kernel_find(kernel), .components = p->grid.dim, .set = {true, true, true}}, left = t;
 	const double *none[3] = {NULL};
 	struct pm_strays strays;
 	bool same = true;
@@ -118,29 +122,62 @@ static bool equal(const struct problem *p, size_t n, const char *kernel)
 	if (!left.gradient || pm_gather(&t, n, (const double *const *)p->x, (const double *const *)p->at_once, NULL, p->a, &strays) ||
 		pm_gather(&left, n, (const double *const *)p->x, none, NULL, p->b, &strays))
 		return false;
-	for (int c = 0; c < 3; c++)
+	for (int c = 0; c < p->grid.dim; c++)
 		same &= !memcmp(p->a[c], p->b[c], n * sizeof *p->a[c]);
 	return same;
 }
 
-static void gathered(const size_t cells[3], int order)
+/* A particle on every node, in the order of the mesh: its values are made from the potential. */
+static bool equal_on_nodes(const struct problem *p)
+{
+	struct pm_transfer t = {.grid = p->grid, .kernel = pm_kernel_find("cic"), .components = p->grid.dim, .set = {true, true, true},
+		.gradient = pm_gradient_later_of(p->gradient.target)};
+	const double *none[3] = {NULL};
+	double *out[3];
+	struct pm_column factor[3];
+	struct pm_target to[3];
+	struct pm_strays strays;
+	pm_frame_set_new(p->f, "matter", p->points);
+	struct pm_field *x = pm_makes(p->f, "matter", "x", p->grid.dim, PM_STATE);
+	if (!x || pm_field_ready(x))
+		exit(1);
+	for (size_t i = 0; i < p->points; i++) {
+		const size_t at[3] = {i % p->grid.points[0], i / p->grid.points[0] % p->grid.points[1], i / p->grid.points[0] / p->grid.points[1]};
+		for (int d = 0; d < p->grid.dim; d++)
+			pm_out(x, d)[i] = p->grid.lo[d] + (double)at[d] * p->grid.h[d];
+	}
+	bool on = false, same = !pm_on_nodes(&t, x, &on) && on;
+	for (int c = 0; c < p->grid.dim; c++)
+		out[c] = room(p->points), factor[c] = (struct pm_column){.value = 1}, to[c] = (struct pm_target){.doubles = out[c]};
+	same = same && !pm_on_nodes_gather(&t, x, none, factor, to, &strays) && strays.finite;
+	for (int c = 0; c < p->grid.dim; c++) {
+		for (size_t i = 0; i < p->points; i++)
+			same &= out[c][i] == p->at_once[c][i];
+		pm_free(out[c]);
+	}
+	return same && pm_gradient_later_of(p->gradient.target);
+}
+
+static void gathered(enum pm_operator_kind kind, const size_t cells[3], int order)
 {
 	static const char *const kernels[] = {"ngp", "cic", "tsc", "m6prime"};
 	struct problem p;
 	bool left = false, same = true;
-	begin(&p, cells, PM_PERIODIC, order, 1);
-	check(!pm_gradient_leave(&p.gradient, &left) && left && pm_gradient_later_of(p.gradient.target), "%zux%zux%zu, order %d: it is left to be made",
-		cells[0], cells[1], cells[2], order);
+	begin(&p, kind, cells, PM_PERIODIC, order, 1);
+	const int dim = p.grid.dim;
+	check(!pm_gradient_leave(&p.gradient, &left) && left && pm_gradient_later_of(p.gradient.target), "%s, %zux%zux%zu, order %d: it is left to be made",
+		pm_operator_names[kind], cells[0], cells[1], cells[2], order);
 	const struct pm_gradient_later *l = pm_gradient_later_of(p.gradient.target);
 	double largest = 0, most = pm_gradient_later_most(l);
 	for (size_t i = 0; i < p.points; i++)
-		largest = fmax(largest, sqrt(pow(p.at_once[0][i], 2) + pow(p.at_once[1][i], 2) + pow(p.at_once[2][i], 2)));
+		largest = fmax(largest, sqrt(pow(p.at_once[0][i], 2) + pow(p.at_once[1][i], 2) + (dim > 2 ? pow(p.at_once[2][i], 2) : 0)));
 	check(largest <= most && most < largest * (1 + 1e-8) && l->within >= largest, "the largest gradient is %g, by a pass %g, by the largest potential %g",
 		largest, most, l->within);
 	for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
 		same &= equal(&p, MOST, kernels[k]) && equal(&p, 90, kernels[k]);
 	check(same, "what m2p makes of the potential has the bytes of what it reads");
-	check(largest_found(&p, 0) && largest_found(&p, 97), "it finds the largest acceleration");
+	check(equal_on_nodes(&p), "and the values of particles on nodes");
+	check(dim < 3 || (largest_found(&p, 0) && largest_found(&p, 97)), "it finds the largest acceleration");
 	struct pm_field *phi = pm_frame_field(p.f, "mesh", "phi");
 	phi->use = PM_USE_CHANGE;
 	if (pm_field_ready(phi))
@@ -148,7 +185,7 @@ static void gathered(const size_t cells[3], int order)
 	for (size_t i = 0; i < p.points; i++)
 		pm_out(phi, 0)[i] = 7;
 	same = pm_in(phi, 0)[p.points - 1] == 7;
-	for (int c = 0; c < 3; c++)
+	for (int c = 0; c < dim; c++)
 		same &= !memcmp(p.at_once[c], pm_in(p.gradient.target, c), p.points * sizeof *p.at_once[c]);
 	check(same && !pm_gradient_later_of(p.gradient.target), "who asks has the gradient of the potential as it was");
 	end(&p);
@@ -158,7 +195,7 @@ static void at_once(const char *why, const size_t cells[3], enum pm_face face, i
 {
 	struct problem p;
 	bool left = true;
-	begin(&p, cells, face, order, size);
+	begin(&p, PM_OP_GRAD, cells, face, order, size);
 	check(!pm_gradient_leave(&p.gradient, &left) && !left, "made at once: %s", why);
 	end(&p);
 }
@@ -166,9 +203,14 @@ static void at_once(const char *why, const size_t cells[3], enum pm_face face, i
 int main(void)
 {
 	for (int order = 2; order <= 6; order += 2) {
-		gathered((const size_t[]){40, 33, 18}, order);
-		gathered((const size_t[]){7, 64, 9}, order);
+		gathered(PM_OP_GRAD, (const size_t[]){40, 33, 18}, order);
+		gathered(PM_OP_GRAD, (const size_t[]){7, 64, 9}, order);
+		gathered(PM_OP_GRAD, (const size_t[]){131, 70, 1}, order);
+		gathered(PM_OP_CURL, (const size_t[]){131, 70, 1}, order);
+		gathered(PM_OP_CURL, (const size_t[]){7, 1100, 1}, order);
+		gathered(PM_OP_CURL, (const size_t[]){1100, 7, 1}, order);
 	}
+	at_once("walls in the plane", (const size_t[]){16, 16, 1}, PM_WALL, 2, 1);
 	at_once("walls", (const size_t[]){16, 16, 16}, PM_WALL, 2, 1);
 	at_once("an axis no longer than its differences", (const size_t[]){6, 16, 16}, PM_PERIODIC, 6, 1);
 	at_once("values that may be infinite", (const size_t[]){16, 16, 16}, PM_PERIODIC, 2, 1e308);

@@ -115,9 +115,17 @@ static void copies(int dim, const size_t cells[3], enum pm_face face, const char
 		q[c] = pm_column_doubles(p.q[c]), times[c] = c ? pm_column_doubles(p.q[0]) : (struct pm_column){.value = -1.7};
 		to[c] = (struct pm_target){.doubles = p.got[c]};
 	}
-	if (pm_on_nodes_spread(&p.t, p.x, q, p.mesh) || pm_spread(&p.t, p.n, x, (const double *const *)p.q, p.want, &strays))
+	if (pm_on_nodes_spread(&p.t, p.x, q, false, p.mesh) || pm_spread(&p.t, p.n, x, (const double *const *)p.q, p.want, &strays))
 		exit(1);
 	const double off = apart(p.points, p.mesh, p.want) * cell;
+	if (p.n == p.points) {
+		for (int c = 0; c < 2; c++) {
+			memcpy(p.want[c], p.mesh[c], p.points * sizeof *p.want[c]);
+			for (size_t i = 0; i < p.points; i++)
+				p.mesh[c][i] = NAN;
+		}
+		check(!pm_on_nodes_spread(&p.t, p.x, q, true, p.mesh) && apart(p.points, p.mesh, p.want) == 0, "what was on the mesh is replaced");
+	}
 	for (int c = 0; c < 2; c++) {
 		memset(p.want[c], 0, p.points * sizeof *p.want[c]);
 		for (size_t i = 0; i < p.n; i++)
