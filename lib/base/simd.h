@@ -228,10 +228,10 @@ PM_SIMD_INLINE pm_simd pm_simd_lanes_from(int k, pm_simd a, pm_simd b)
 #undef PM_SIMD_FROM
 }
 
-/* Adds v, moved k lanes up, to two vectors one behind the other, 0 < k < PM_SIMD_WIDTH, a constant. Lanes that it does not come to stay, or have 0 added. */
+/* Adds v, moved k lanes up, to two vectors one behind the other, 0 < k < PM_SIMD_WIDTH, a constant. Other lanes stay, or have 0 added. */
 PM_SIMD_INLINE void pm_simd_add_moved(int k, pm_simd v, pm_simd *low, pm_simd *high)
 {
-#ifdef __AVX512F__ /* one way round the lanes in place of two */
+#ifdef __AVX512F__ /* one rotation instead of two shifts */
 	const pm_simd round = pm_simd_lanes_from(PM_SIMD_WIDTH - k, v, v);
 	*low = (pm_simd)_mm512_mask_add_pd((__m512d)*low, (__mmask8)(0xff << k), (__m512d)*low, (__m512d)round);
 	*high = (pm_simd)_mm512_mask_add_pd((__m512d)*high, (__mmask8)(0xff >> (8 - k)), (__m512d)*high, (__m512d)round);

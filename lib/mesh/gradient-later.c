@@ -32,7 +32,7 @@ static bool can(const struct pm_gradient *t)
 {
 	const struct pm_operator *o = &t->operator;
 	const int dim = o->grid.dim;
-	/* a difference each */
+	/* a gradient, or a curl in the plane: one term for each component, in their order */
 	bool periodic = pm_world_alone() && dim > 1 && o->in == 1 && o->out == dim && o->nterms == dim && o->order && !t->source->interlaced;
 	for (int d = 0; d < dim && periodic; d++)
 		periodic = o->grid.face[d][0] == PM_PERIODIC && o->grid.points[d] > (size_t)o->order;

@@ -1,5 +1,5 @@
 /* The gradient of a potential, or in the plane the curl of a stream function, that is left to be made (stream/later.h): m2p makes of it the nodes that a tile
- * of particles needs, from a potential that is a third or half of its size and was just written. SPDX-License-Identifier: GPL-3.0-or-later */
+ * of particles needs, from a potential that is a third or half the size of the gradient and was just written. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PM_MESH_GRADIENT_LATER_H
 #define PM_MESH_GRADIENT_LATER_H
 

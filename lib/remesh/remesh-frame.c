@@ -251,11 +251,11 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 	return pm_world_agree(status);
 }
 
-/* Every node of a periodic mesh has become a particle: p2m and m2p need not look whether all stand on nodes. */
+/* The particles are nodes of a periodic mesh, in its order: p2m and m2p need not look whether they are. */
 static void note_nodes(const struct pm_frame *f, const char *set, const struct pm_grid *g, const struct work *w)
 {
 	const struct pm_field *x = pm_frame_field(f, set, "x");
-	bool all = !w->shared && w->r.kept == pm_grid_size(g) && x->type == PM_F64;
+	bool all = !w->shared && w->r.kept && x->type == PM_F64;
 	for (int d = 0; d < g->dim; d++)
 		all = all && g->face[d][0] == PM_PERIODIC;
 	if (all)

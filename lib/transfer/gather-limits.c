@@ -37,7 +37,7 @@ int pm_gather_limits_declare(const struct pm_gather_job *j, struct pm_frame *f)
 }
 
 /* The most nodes of a row that are made at once, and with those on either side their distance from row to row. */
-enum { PIECE = 1024, APART = PIECE + 16 };
+enum { PIECE = 1024, APART = PIECE + 16 /* not whole pages, which are in each other's way in the cache */ };
 
 /* Nodes from-1..to of row y, to room[component][3 APART]. */
 static void make_piece(const struct pm_gradient_later *l, size_t from, size_t to, size_t y, double *room)
@@ -50,12 +50,12 @@ static void make_piece(const struct pm_gradient_later *l, size_t from, size_t to
 		pm_tile_gradient_row(l, (const size_t[]){0, y, 0}, 1, room + 1 + to - from, 3 * APART);
 }
 
-/* Rows first..last-1 of a flow that is left to be made, of which the nodes from..to-1: one after the other, of which three are there. */
+/* Of a flow that is left to be made the rows first..last-1, the nodes from..to-1: three rows are held at a time. */
 static double strain_of_rows(const struct pm_gradient_later *l, size_t from, size_t to, size_t first, size_t last)
 {
 	const size_t rows = l->operator.grid.points[1];
 	double room[6 * APART], most = 0; /* [component][row % 3][APART] */
-	for (size_t y = first; y < last + 2; y++) { /* row y - 1 is made, then the one below has both its neighbours */
+	for (size_t y = first; y < last + 2; y++) { /* row y - 1 is made; row y - 2 then has both neighbours */
 		make_piece(l, from, to, (y + rows - 1) % rows, room + y % 3 * APART);
 		for (size_t c = 0; c < 2 && y >= first + 2; c++) {
 			const double *u = room + c * 3 * APART + 1;

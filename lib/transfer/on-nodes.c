@@ -11,7 +11,7 @@
 #include "transfer/tile-gradient.h"
 #include "world/world.h"
 
-enum { PIECE = 4096, FEW = 16, PART = 488 /* not a page: gather-limits.c */ };
+enum { PIECE = 4096, FEW = 16, PART = 488 /* less than a page: rows a page apart are in each other's way in the cache */ };
 
 struct nodes {
 	const struct pm_grid *g;
@@ -70,14 +70,20 @@ static int begin(struct nodes *w, const struct pm_field *x)
 	return 0;
 }
 
+/* The index along axis d of the node nearest to a place. */
+static bool index_at(const struct pm_grid *g, int d, double x, size_t *i)
+{
+	const double u = (x - g->lo[d]) / g->h[d] + 0.5;
+	if (!(u >= 0 && u < (double)g->points[d]))
+		return false;
+	*i = (size_t)u;
+	return true;
+}
+
 /* The index along axis d of the only node that particle p may stand on; false: there is none. */
 static bool index_of(const struct nodes *w, size_t p, int d, size_t *i)
 {
-	const double u = (w->x[d][p] - w->g->lo[d]) / w->g->h[d] + 0.5;
-	if (!(u >= 0 && u < (double)w->g->points[d]))
-		return false;
-	*i = (size_t)u;
-	return *i >= w->low[d] && *i <= w->high[d];
+	return index_at(w->g, d, w->x[d][p], i) && *i >= w->low[d] && *i <= w->high[d];
 }
 
 /* How many of n are equal to those of `at`, from the first on; or with one, to that. */
@@ -205,9 +211,14 @@ static void keep(const struct nodes *w, const struct pm_field *x)
 void pm_on_nodes_keep(const struct pm_grid *g, const struct pm_field *x)
 {
 	struct nodes w = {.g = g};
-	for (int d = 0; d < g->dim; d++)
+	bool found = true; /* not where the corner of the box is so far away that neighbours are rounded to one place */
+	for (int d = 0; d < g->dim; d++) {
 		w.high[d] = g->cells[d] - 1;
-	keep(&w, x);
+		for (size_t i = 0, at; i < g->cells[d]; i++)
+			found = found && index_at(g, d, g->lo[d] + (double)i * g->h[d], &at) && at == i;
+	}
+	if (found)
+		keep(&w, x);
 }
 
 int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on)

@@ -8,7 +8,7 @@
 /* x is that of the frame; what it has been asked once is the same for any number of threads and ranks, which all call. *on: every particle stands on a node,
  * each behind the one before in the order of the mesh, the kernel interpolates, and no component is staggered. 0 or failure. */
 int pm_on_nodes(const struct pm_transfer *t, const struct pm_field *x, bool *on);
-/* x was made as all nodes of a periodic mesh, in its order, by lo + i h: this is remembered. */
+/* x was made as nodes of a periodic mesh, in its order, by lo + i h: this is remembered, where it would be found. */
 void pm_on_nodes_keep(const struct pm_grid *g, const struct pm_field *x);
 /* pm_spread_columns and pm_gather_columns of such particles. replaces: there are as many as nodes, and the values of the mesh are not added to. */
 int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], bool replaces, double *const mesh[]);

@@ -197,7 +197,7 @@ static int order_of(struct pm_shared_jobs *v, size_t n, const double *const x[],
 	return v->local ? 0 : pm_failed();
 }
 
-int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int room)
+int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int nvalues, int room)
 {
 	v->ranks = (size_t)pm_world_size(), v->me = (size_t)pm_world_rank();
 	v->planes = v->t->planes;
@@ -205,7 +205,7 @@ int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int room)
 	if (status)
 		return status;
 	const struct pm_tile_order *o = &v->local->order;
-	const int nvalues = o->nvalues, width = o->dim + nvalues;
+	const int width = o->dim + nvalues; /* of an order that is kept, records have values on some ranks and are spent on others */
 	status = count(status, v);
 	status = status ? status : deal(v);
 	if (!status)
@@ -222,7 +222,7 @@ int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int room)
 
 int pm_shared_jobs_init(int status, struct pm_shared_jobs *v, size_t n, const double *const x[], int nvalues, const double *const values[], int room)
 {
-	return pm_shared_jobs_of_order(status ? status : order_of(v, n, x, nvalues, values, room), v, room);
+	return pm_shared_jobs_of_order(status ? status : order_of(v, n, x, nvalues, values, room), v, nvalues, room);
 }
 
 void pm_shared_jobs_free(struct pm_shared_jobs *v, bool keep)

@@ -32,8 +32,8 @@ struct pm_shared_jobs {
 /* The jobs of a pass (w.which, w.components) over n particles here. room: doubles of results a record. Takes the caller's
  * status and returns the agreed one; free in any case. */
 int pm_shared_jobs_init(int status, struct pm_shared_jobs *v, size_t n, const double *const x[], int nvalues, const double *const values[], int room);
-/* The same of records of another kind, whose order here is v->local. */
-int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int room);
+/* The same of records of another kind, whose order here is v->local; nvalues: that each of them has, at least, on every rank. */
+int pm_shared_jobs_of_order(int status, struct pm_shared_jobs *v, int nvalues, int room);
 /* keep: the order of the particles here is left for the next transfer at their positions. */
 void pm_shared_jobs_free(struct pm_shared_jobs *v, bool keep);
 

@@ -61,8 +61,8 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	status = status ? status : pm_makes_density(f, j->mesh, &density, add);
 	struct pm_field *made = status ? NULL : pm_frame_field(f, j->mesh->name, j->density);
-	if (made && made->use & PM_USE_NEW)
-		made->use |= PM_USE_FILL; /* spread() clears it, where particles on nodes do not make every value */
+	if (made && !add && !j->choice.add)
+		made->use |= PM_USE_FILL; /* spread() clears it, if particles do not make every value */
 	return status;
 }
 
@@ -125,7 +125,7 @@ static int spread(const struct pm_spread_job *j, const struct pm_transfer *t, co
 	int status = j->choice.interlace || j->choice.add ? 0 : pm_on_nodes(t, x, &on);
 	if (!a->columns && on)
 		pm_columns_of(t->components, a->q, a->values);
-	const bool all = on && !x->here && x->count == pm_grid_size(&t->grid);
+	const bool all = on && !x->here && x->count == pm_grid_size(&t->grid); /* every node has a particle */
 	for (int c = 0; c < t->components && t->cleared && !all; c++)
 		memset(a->mesh[c], 0, a->points * sizeof *a->mesh[c]);
 	if (status || on)

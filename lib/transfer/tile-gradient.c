@@ -4,7 +4,7 @@
 #include "transfer/tile-gradient.h"
 #include "transfer/tile-vector.h"
 
-enum { W = PM_SIMD_WIDTH, MOST = 3, PAGE = 512 };
+enum { W = PM_SIMD_WIDTH, MOST = 3, PAGE = 512 /* doubles */ };
 
 /* A row of the potential, and those beside it. */
 struct lines {
@@ -83,6 +83,7 @@ PM_SIMD_INLINE void run_of(struct shape s, const struct lines *l, size_t from, s
 
 static inline const double *row_at(const double *phi, const size_t n[3], size_t y, size_t z) { return phi + (z * n[1] + y) * n[0]; }
 
+/* l becomes that of a row: weights and size stay. */
 PM_SIMD_INLINE void set_row(int dim, int pairs, const struct pm_gradient_later *g, const double *phi, size_t y, size_t z, struct lines *l)
 {
 	const size_t *n = g->operator.grid.points;

@@ -295,7 +295,7 @@ int pm_spread_ranks(const struct pm_transfer *t, size_t n, const double *const x
 int pm_spread_jobs_ranks(int status, const struct pm_transfer *t, struct pm_order_cache *local, const struct pm_job_blocks *b, double *const mesh[])
 {
 	struct pass a = {.jobs = {.t = t, .local = local}, .blocks = b};
-	status = pm_shared_jobs_of_order(status, &a.jobs, 0);
+	status = pm_shared_jobs_of_order(status, &a.jobs, local ? local->order.nvalues : 0, 0);
 	if (!status && !(a.jobs.w.blocks = pm_zalloc(pm_tile_under_way(threads_of(&a.jobs)) * PM_BLOCK_MOST, sizeof(double))))
 		status = pm_failed();
 	status = pm_world_agree(status ? status : b->begin(b->data, a.jobs.w.p.jobs, threads_of(&a.jobs)));

@@ -27,7 +27,7 @@ struct pm_transfer {
 	bool given[3][2];       /* a wall or neumann face without images: values were given on it; gathers of kernels of width 1 and 2 alone */
 	struct pm_note **kept;   /* NULL, or where the order of these positions may be found and left (the note of their field) */
 	const struct pm_planes *planes; /* NULL, or those of the mesh that this rank has, with a part of the particles: all ranks call, strays are those here */
-	const struct pm_gradient_later *gradient; /* gather: NULL, or the field's three components in place of mesh[] (mesh/gradient-later.h) */
+	const struct pm_gradient_later *gradient; /* gather: NULL, or the field's components in place of mesh[] (mesh/gradient-later.h) */
 	bool cleared;            /* spread: what the mesh has now may be cleared: it is zero, or not wanted */
 	bool set[PM_COMPONENTS]; /* gather writes its values (0 for strays) instead of adding them */
 };

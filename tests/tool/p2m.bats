@@ -17,6 +17,14 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	[ "$(stack --as one,other one one | p2m --kernel m4prime | mesh | tr ' ' '\n' | sort | uniq -c | tr -s ' ')" = ' 400 32' ]
 }
 
+@test "p2m --add where there is no density yet begins at zero" {
+	pinit uniform --cells 8 -n 300 --no-history >in
+	p2m --no-history in | mesh >want
+	for options in --add '--add --field other'; do
+		MALLOC_PERTURB_=165 p2m $options --no-history in | mesh | diff - want
+	done
+}
+
 @test "p2m needs no options: the law's strength goes to its density on the default mesh with its kernel" {
 	sh_ok 'pinit uniform -n 50 | p2m | sls'
 	[[ $output =~ rho\ +1\ f64\ derived\ value\ \[mass/length\^3\]\ kernel\ cic ]]

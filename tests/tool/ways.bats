@@ -321,6 +321,15 @@ vortices() {
 	all_ways "pinit uniform --dim 2 -n 3000 --cells 41" "" "${f/m6prime/tsc} | push kick drift" 1
 }
 
+@test "equal bytes: nodes of a box so far from 0 that neighbours are rounded to one place" {
+	all_ways "pinit uniform --dim 2 --cells 8x40 -n 3000 --box 0,-5.7e13,1,-56999999999999.8" "" \
+		'remesh --by mass | p2m --kernel m4prime | poisson-fft | mgrad | m2p | push kick drift --unsafe' 1
+}
+
+@test "equal bytes: two gathers at the same positions, which are in order on some ranks alone" {
+	all_ways "pinit uniform --cells 11x14x20 -n 3080" "" 'p2m --kernel tsc | poisson-fft | mgrad | m2p | m2p --field g | push kick drift' 1
+}
+
 @test "equal bytes: vortices remeshed onto an odd mesh when they are distorted" {
 	all_ways vortices "" "p2m -n 21x23 | poisson-fft | mgrad | diffuse --order 2 | m2p | push rk2 | remesh --when distortion --threshold 1e-3" 2
 }
