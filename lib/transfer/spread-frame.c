@@ -61,7 +61,7 @@ static int makes_density(const struct pm_spread_job *j, struct pm_frame *f, bool
 	int status = j->choice.interlace ? pm_interlace_check(&t) : 0;
 	status = status ? status : pm_makes_density(f, j->mesh, &density, add);
 	struct pm_field *made = status ? NULL : pm_frame_field(f, j->mesh->name, j->density);
-	if (made && !add && !j->choice.add)
+	if (made && !add)
 		made->use |= PM_USE_FILL; /* spread() clears it, if particles do not make every value */
 	return status;
 }
