@@ -314,11 +314,14 @@ vortices() {
 	all_ways vortices "" "p2m --kernel m6prime | poisson-fft | mgrad | diffuse | m2p | push lsrk3 | remesh --kernel m6prime --cut-off 1e-6" 3
 }
 
+vortex() { printf 'x y circulation\n0.9998 0.4 1\n' | stab - --law vortex --box 0,1 --faces periodic -n 37 --dt 1e-4; } # most strain at the end of a row
+
 @test "equal bytes: a flow in the plane that is left to be made, on all nodes and beside them" {
 	f='p2m --kernel m6prime | poisson-fft | mgrad | m2p'
 	all_ways "pinit taylor-green-2d --cells 37 --dt 0.1" "" "$f | push rk2 | remesh" 2
 	all_ways "pinit taylor-green-2d --cells 140 --dt 0.02" "" "${f/mgrad/mgrad --order 2} | push rk2 | remesh --cut-off 0.1" 2
 	all_ways "pinit taylor-green-2d --cells 37 --dt 0.1" "$f" "push euler | remesh | $f" 1 # its strain stays with the rate
+	all_ways vortex "$f" "push euler | $f" 1
 	all_ways "pinit uniform --dim 2 -n 3000 --cells 41" "" "${f/m6prime/tsc} | push kick drift" 1
 }
 
