@@ -255,10 +255,10 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 static void note_nodes(const struct pm_frame *f, const char *set, const struct pm_grid *g, const struct work *w)
 {
 	const struct pm_field *x = pm_frame_field(f, set, "x");
-	bool all = !w->shared && w->r.kept && x->type == PM_F64;
+	bool can = !w->shared && w->r.kept && x->type == PM_F64;
 	for (int d = 0; d < g->dim; d++)
-		all = all && g->face[d][0] == PM_PERIODIC;
-	if (all)
+		can = can && g->face[d][0] == PM_PERIODIC;
+	if (can)
 		pm_on_nodes_keep(g, x);
 }
 

@@ -328,7 +328,6 @@ struct gather {
 	const double *const *mesh; /* of ranks: what was gathered, by particles */
 	const struct pm_column *factor;
 	const struct pm_target *out;
-	const struct pm_gradient_later *gradient; /* what it is made of; NULL: mesh has it */
 	int *bad;
 };
 
@@ -359,7 +358,7 @@ static bool make_and_take(const struct gather *g, const size_t at[3], size_t p, 
 {
 	double made[3][PART];
 	bool finite = true;
-	pm_tile_gradient_row(g->gradient, at, m, made[0], PART);
+	pm_tile_gradient_row(g->t->gradient, at, m, made[0], PART);
 	for (int c = 0; c < g->t->components; c++)
 		finite &= take(g, c, made[c], p, m);
 	return finite;
@@ -370,9 +369,9 @@ static void gather_run(const void *data, size_t node, size_t p, size_t m)
 	const struct gather *g = data;
 	const size_t *points = g->t->grid.points;
 	bool finite = true;
-	for (int c = 0; c < g->t->components && !g->gradient; c++)
+	for (int c = 0; c < g->t->components && !g->t->gradient; c++)
 		finite &= take(g, c, g->mesh[c] + node, p, m);
-	for (size_t i = 0, many; i < m && g->gradient; i += many, node += many) {
+	for (size_t i = 0, many; i < m && g->t->gradient; i += many, node += many) {
 		many = m - i < PART ? m - i : PART;
 		finite &= make_and_take(g, (const size_t[]){node % points[0], node / points[0] % points[1], node / points[0] / points[1]}, p + i, many);
 	}
@@ -398,7 +397,7 @@ int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, co
 {
 	struct nodes w;
 	int bad = 0, status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
-	const struct gather g = {t, mesh, factor, out, t->gradient, &bad};
+	const struct gather g = {t, mesh, factor, out, &bad};
 	*strays = (struct pm_strays){.count = 0};
 	if (x->here)
 		status = gather_ranks(status, &w, mesh, &g);
