@@ -113,7 +113,7 @@ static void by_actions(const struct passing *k, int c, size_t n, double *x, doub
 	s->bad |= !pm_advance_few(n, k->open, nlines, lines, x, &k->box[c], &s->most[c]);
 }
 
-static void few(void *data, size_t m, double *const x[3], double *const v[3], const double *const rate[3])
+static void few(void *data, size_t m, double *const x[3], double *const v[], const double *const rate[3])
 {
 	const struct passing *k = data;
 	struct seen *s = &k->seen[omp_get_thread_num()];
@@ -158,7 +158,10 @@ static int pass(const struct pm_frame *f, const struct pm_moving *m, const struc
 	k.plain = pm_kick_drift_is(k.close, k.open, &k.step);
 	for (int d = 0; d < f->dim; d++)
 		k.box[d] = (struct pm_bounds){.lo = f->lo[d], .hi = f->hi[d], .fold = true};
-	const int status = k.seen && (taken || !left) ? pm_rate_pass(l, f, m->x, m->v, few, &k) : -PM_DATA;
+	struct pm_rate_beside v = {.n = k.components, .back = k.components};
+	for (int c = 0; c < k.components && k.seen && (taken || !left); c++)
+		v.of[c] = pm_out(m->v, c);
+	const int status = k.seen && (taken || !left) ? pm_rate_pass(l, f, m->x, &v, few, &k) : -PM_DATA;
 	if (!status) {
 		double most = 0;
 		for (int d = 0; d < f->dim; d++) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "law/law.h"
+#include "push/flow-pass.h"
 #include "push/kick-later.h"
 #include "push/motion-pass.h"
 #include "push/step-control.h"
@@ -41,6 +42,8 @@ static int declare_register(struct pm_frame *f, struct pm_moving *m, struct pm_r
 	if (rate->q[i] && rate->q[i]->components != pm_rate_components(rate))
 		return pm_fail(PM_DATA, "the register '%s' on '%s' has %d components, its rate %d", name, m->set->name, rate->q[i]->components,
 			pm_rate_components(rate));
+	if (rate->q[i] && !known && m->pass.step->fills && m->pass.registers == m->pass.step->registers)
+		rate->q[i]->use |= PM_USE_FILL;
 	return rate->q[i] ? 0 : -PM_DATA;
 }
 
@@ -88,6 +91,7 @@ static int declare_fields(struct pm_frame *f, struct pm_moving *m, const struct 
 		for (int i = 0; i < m->pass.registers; i++)
 			if ((!pm_step_decides(p->scheme) || pm_control_register(m, &m->rates[r], i)) && declare_register(f, m, &m->rates[r], i))
 				return -PM_DATA;
+	pm_flow_declare(f, m, p);
 	forget_registers(f, m, p->scheme ? m->pass.kept : 0);
 	if (p->moves)
 		pm_drops_roles(f, m->set->name, 1u << PM_CHANGE | 1u << PM_DERIVED);

@@ -1,6 +1,7 @@
 /* The data part of a push of one set: rotates velocities about a magnetic field, then advances every component (state-advance.h).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law/law.h"
+#include "push/flow-pass.h"
 #include "push/kick-later.h"
 #include "push/motion-pass.h"
 #include "push/push-set.h"
@@ -220,15 +221,16 @@ int pm_moving_run(const struct pm_frame *f, const struct pm_moving *m, const str
 	int status = p->magnetic ? turn(f, m, pm_moving_magnetic(f, p)) : 0;
 	for (int t = 0; t < a.actions; t++)
 		a.action[t].dt = f->dt * p->part[t];
-	const int passed = status || p->scheme ? 0 : pm_motion_pass(f, m, &a, h, crossed);
-	if (passed)
-		return passed < 0 ? passed : 0;
 	if (p->scheme) {
 		int own = m->pass.registers - m->pass.step->registers; /* those that the requested scheme keeps come first */
 		a.action[0].step = m->pass.step, a.action[0].pass = m->pass.pass;
 		a.shift = m->pass.shift ? own : 0;
 		a.registers = m->pass.step == p->scheme ? 0 : own;
 	}
+	int passed = status || p->scheme ? 0 : pm_motion_pass(f, m, &a, h, crossed);
+	passed = status || passed ? passed : pm_flow_pass(f, m, &a, h, crossed);
+	if (passed)
+		return passed < 0 ? passed : 0;
 	for (int c = 0; c < PM_COMPONENTS && !status; c++) {
 		struct pm_advanced lines[PM_RATES];
 		struct pm_bounds b = bounds_of(f, c < f->dim ? c : 0);

@@ -218,7 +218,18 @@ static int divide(const struct work *w, const struct pm_remesh_choice *c, struct
 	return status;
 }
 
-static int renew(struct pm_frame *f, const char *set, const struct work *w, const struct pm_remesh_choice *c, const struct entry *e)
+/* All nodes are kept, and nobody else needs the strengths that they have: then they are the field. */
+static bool adopt(struct work *w, const struct pm_remesh_choice *c, const struct entry *e, struct pm_field *made)
+{
+	if (e->part != STRENGTH || c->by || w->shared || w->r.kept != w->r.points || made->components != 1 || made->type != PM_F64)
+		return false;
+	const bool adopted = pm_field_adopt(made, w->r.node[e->first]);
+	if (adopted)
+		w->r.node[e->first] = NULL;
+	return adopted;
+}
+
+static int renew(struct pm_frame *f, const char *set, struct work *w, const struct pm_remesh_choice *c, const struct entry *e)
 {
 	const struct pm_field *old = e->old;
 	if (e->part == GONE) {
@@ -227,6 +238,7 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 	}
 	struct pm_field *made = pm_makes(f, set, old->name, old->components, PM_STATE);
 	int status = made ? 0 : -PM_DATA;
+	bool there = false;
 	if (made) {
 		json_decref(made->more);
 		made->more = json_deep_copy(old->more);
@@ -237,10 +249,11 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 		memcpy(made->unit, old->unit, sizeof made->unit);
 		memcpy(made->value, old->value, sizeof made->value);
 		status = w->shared ? pm_field_share(made, pm_sum_block) : 0;
-		status = status ? status : pm_field_ready(made);
+		there = !status && adopt(w, c, e, made);
+		status = status || there ? status : pm_field_ready(made);
 	}
 	status = pm_world_agree(status);
-	for (int k = 0; !status && e->part != UNIFORM && k < made->components; k++)
+	for (int k = 0; !status && !there && e->part != UNIFORM && k < made->components; k++)
 		status = fill(status, w, e, k, made->from, pm_out(made, k));
 	if (!status && e->part == VALUE)
 		status = divide(w, c, made);
@@ -248,6 +261,8 @@ static int renew(struct pm_frame *f, const char *set, const struct work *w, cons
 		made->use |= PM_USE_DONE;
 	if (!status && (e->part == STRENGTH || ((e->part == POSITION || e->part == VOLUME) && pm_remesh_is_finite(&w->r))))
 		made->use |= PM_USE_SEEN; /* strengths were looked at on the nodes */
+	if (!status && e->part == STRENGTH && made->components == 1 && !w->shared)
+		made->within = w->r.most[e->first];
 	return pm_world_agree(status);
 }
 

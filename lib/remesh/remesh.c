@@ -104,34 +104,45 @@ static int add_beside(const struct pm_remesh *r, size_t n, const double *const x
 	return status;
 }
 
-static double largest_of(size_t n, const double *v)
+/* Of absolute values. */
+struct range {
+	double least, most;
+};
+
+static struct range range_of(size_t n, const double *v)
 {
-	pm_simd most = {0};
+	pm_simd most = {0}, below = {0}; /* the largest of -|v|: the least, raised like the other */
+	struct range r = {INFINITY, 0};
 	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH)
-		pm_simd_raise(&most, pm_simd_abs(pm_simd_load_any(v + i)));
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		below[l] = -INFINITY;
+	for (; i + PM_SIMD_WIDTH <= n; i += PM_SIMD_WIDTH) {
+		const pm_simd size = pm_simd_abs(pm_simd_load_any(v + i));
+		pm_simd_raise(&most, size), pm_simd_raise(&below, -size);
+	}
 	for (; i < n; i++)
-		most[0] = fmax(most[0], fabs(v[i]));
-	for (int l = 1; l < PM_SIMD_WIDTH; l++)
-		most[0] = fmax(most[0], most[l]);
-	return most[0];
+		r.least = fmin(r.least, fabs(v[i])), r.most = fmax(r.most, fabs(v[i]));
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		r.least = fmin(r.least, -below[l]), r.most = fmax(r.most, most[l]);
+	return r;
 }
 
-/* Strengths of value i, of densities if it is to weigh them, and their largest absolute value. False: one is not finite. */
+/* Strengths of value i, of densities if it is to weigh them, and their range. False: one is not finite. */
 static bool finish(struct pm_remesh *r, int i, bool weighs)
 {
 	const size_t n = r->grid.points[0];
-	double most = 0;
+	double most = 0, least = INFINITY;
 	int bad = 0;
-#pragma omp parallel for schedule(static) reduction(max : most) reduction(| : bad) if (r->points > 16384)
+#pragma omp parallel for schedule(static) reduction(max : most) reduction(min : least) reduction(| : bad) if (r->points > 16384)
 	for (size_t row = 0; row < rows_of(r); row++) {
 		double *node = r->node[i] + row * n;
 		if (weighs)
 			weigh_row(r, row, node);
 		bad |= !pm_finite_few(n, node);
-		most = fmax(most, largest_of(n, node));
+		const struct range here = range_of(n, node);
+		most = fmax(most, here.most), least = fmin(least, here.least);
 	}
-	r->most[i] = most;
+	r->most[i] = most, r->least[i] = least;
 	return !bad;
 }
 
@@ -173,12 +184,15 @@ static int thresholds(const struct pm_remesh *r, double cut_off, double least[])
 /* Marks the nodes that become particles. */
 static void mark(const struct pm_remesh *r, const double least[])
 {
+	bool all = false;
+	for (int i = 0; i < r->n; i++)
+		all = all || (r->field[i] >= 0 && r->least[i] > least[i]);
 #pragma omp parallel for schedule(static) if (r->points > 16384)
 	for (size_t row = 0; row < rows_of(r); row++) {
 		const size_t n = r->grid.points[0];
 		unsigned char *keep = r->keep + row * n;
-		memset(keep, 0, n);
-		for (int i = 0; i < r->n; i++) {
+		memset(keep, all, n);
+		for (int i = 0; i < r->n && !all; i++) {
 			const double *node = r->node[i] + row * n, more = least[i];
 			for (size_t p = 0; p < n && r->field[i] >= 0; p++)
 				keep[p] |= fabs(node[p]) > more;

@@ -15,7 +15,7 @@ struct pm_remesh {
 	size_t points;
 	int n;                          /* values per node, every component of every strength added so far */
 	double *node[PM_REMESH_VALUES]; /* [points] the strength of each node, not its density */
-	double most[PM_REMESH_VALUES];  /* the largest absolute value of each on the nodes here */
+	double least[PM_REMESH_VALUES], most[PM_REMESH_VALUES]; /* absolute values of each on the nodes here */
 	int field[PM_REMESH_VALUES];    /* the first value of the strength this one is a component of; -1: does not decide which nodes are kept */
 	const unsigned char *mask;      /* NULL, or [points of the whole mesh] 1: in a body, where no particle is made and beside which kernels are one-sided */
 	unsigned char *keep;            /* [points] does the node become a particle? */

@@ -23,6 +23,7 @@ const struct pm_step step_midpoint = {
 	.kind = PM_SCHEME,
 	.passes = 2,
 	.registers = 1,
+	.fills = true,
 	.order = 2,
 	.real_limit = 2,
 	.imaginary_limit = 0,

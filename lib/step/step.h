@@ -93,6 +93,7 @@ struct pm_step {
 	int passes;    /* force evaluations per step; of an error-controlled scheme as many as it usually takes */
 	int registers; /* per state, zero at the first pass, dropped after the last; each a linear combination of rates, so that it does not
 	                * change when a particle is folded and changes sign when it is reflected */
+	bool fills;    /* the first pass sets all registers without reading them */
 	int rates;     /* old rates kept from step to step: q[0] of the last step, q[1] of the one before; push shifts them */
 	bool changes;  /* what is kept is the change of the last step over dt instead, the last rate of the starting scheme; the pass keeps it itself */
 	const char *start;  /* of schemes that keep rates: the one-step scheme for the first steps */

@@ -90,6 +90,16 @@ int pm_field_hold_floats(struct pm_field *field)
 	return 0;
 }
 
+bool pm_field_adopt(struct pm_field *field, double *data)
+{
+	struct pm_buffer *b = pm_buffer_adopt(data);
+	if (b) {
+		pm_field_forget(field);
+		field->buffer = b;
+	}
+	return b;
+}
+
 /* One number as doubles, for a stage that takes columns and yet asks for them. */
 static int expand(const struct pm_field *field)
 {

@@ -84,6 +84,16 @@ struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero)
 	return b;
 }
 
+struct pm_buffer *pm_buffer_adopt(double *data)
+{
+	struct pm_buffer *b = share_new ? NULL : calloc(1, sizeof *b);
+	if (b) {
+		atomic_init(&b->users, 1);
+		b->data = data;
+	}
+	return b;
+}
+
 void pm_buffer_to_floats(struct pm_buffer *b)
 {
 	b->floats = b->data;

@@ -24,6 +24,7 @@ struct pm_buffer {
 	struct pm_note *note; /* ranks other than 0: that of its field between two words, for which a frame is made anew */
 };
 struct pm_buffer *pm_buffer_new(size_t n, size_t size, bool zero); /* data for n values; NULL: failure */
+struct pm_buffer *pm_buffer_adopt(double *data); /* of pm_alloc, taken over; NULL: data of others are shared, or failure */
 struct pm_buffer *pm_buffer_free(struct pm_buffer *b);             /* gives up one use; returns NULL */
 struct pm_buffer *pm_buffer_of_shared(struct pm_shared *b);        /* takes over a use of it; NULL: failure, and the use is given up */
 void pm_buffer_to_floats(struct pm_buffer *b);                     /* data becomes floats: the caller has filled it with them, or will */
@@ -36,6 +37,8 @@ bool pm_buffer_alone(const struct pm_buffer *b);                   /* one use, h
 /* An f32 field between two stages, where there are no ranks: */
 bool pm_field_rests(const struct pm_field *field);    /* it is held as floats */
 int pm_field_hold_floats(struct pm_field *field);     /* a buffer of its own, contents undefined */
+/* Of f64: values that pm_alloc made become those of the field; false: they do not, as where fields are handed to other processes. */
+bool pm_field_adopt(struct pm_field *field, double *data);
 float *pm_field_floats(const struct pm_field *field); /* all components; NULL: it is not */
 
 /* The division of n values: beginnings at multiples of a grain, as even as these allow; free() it. NULL: no memory. */

@@ -350,7 +350,7 @@ static int gather(const struct pm_gather_job *j, struct pm_frame *f, const char 
 		a->finite = !status && !j->interlaced && strays->finite;
 		a->t.components = 0;
 		a->t.grid = pm_grid_of(f, j->mesh);
-	} else if (j->choice.later && !j->choice.field && !a->on_nodes) {
+	} else if (j->choice.later && !j->choice.field) {
 		bool left = false;
 		status = pm_rate_leave(j, f, set, a, &left);
 		if (status || left)

@@ -119,15 +119,15 @@ static size_t run_of(const struct nodes *w, size_t p, size_t end, size_t *node)
 
 typedef void do_run(const void *data, size_t node, size_t p, size_t m);
 
-/* False: the particles from..to-1, or the one before, are not on nodes in the order of the mesh. */
+/* False: the particles from..to-1, or the one before, are not on nodes in the order of the mesh. To act it must be known that they are. */
 static bool walk_piece(const struct nodes *w, size_t from, size_t to, do_run *act, const void *data)
 {
 	size_t last = 0, node, m;
-	if (from && !run_of(w, from - 1, from, &last))
+	if (from && !act && !run_of(w, from - 1, from, &last))
 		return false;
 	for (size_t p = from; p < to; p += m, last = node + m - 1) {
 		m = run_of(w, p, to, &node);
-		if (!m || (p && node <= last))
+		if (!m || (p && !act && node <= last))
 			return false;
 		if (act)
 			act(data, node, p, m);
@@ -354,11 +354,18 @@ static bool take(const struct gather *g, int c, const double *from, size_t p, si
 	return pm_finite_few(m, to);
 }
 
-static bool make_and_take(const struct gather *g, const size_t at[3], size_t p, size_t m)
+/* m <= PART nodes of a row, of a gradient that is left to be made. */
+static void make_row(const struct pm_transfer *t, size_t node, size_t m, double made[3][PART])
+{
+	const size_t *points = t->grid.points;
+	pm_tile_gradient_row(t->gradient, (const size_t[]){node % points[0], node / points[0] % points[1], node / points[0] / points[1]}, m, made[0], PART);
+}
+
+static bool make_and_take(const struct gather *g, size_t node, size_t p, size_t m)
 {
 	double made[3][PART];
 	bool finite = true;
-	pm_tile_gradient_row(g->t->gradient, at, m, made[0], PART);
+	make_row(g->t, node, m, made);
 	for (int c = 0; c < g->t->components; c++)
 		finite &= take(g, c, made[c], p, m);
 	return finite;
@@ -367,14 +374,11 @@ static bool make_and_take(const struct gather *g, const size_t at[3], size_t p, 
 static void gather_run(const void *data, size_t node, size_t p, size_t m)
 {
 	const struct gather *g = data;
-	const size_t *points = g->t->grid.points;
 	bool finite = true;
 	for (int c = 0; c < g->t->components && !g->t->gradient; c++)
 		finite &= take(g, c, g->mesh[c] + node, p, m);
-	for (size_t i = 0, many; i < m && g->t->gradient; i += many, node += many) {
-		many = m - i < PART ? m - i : PART;
-		finite &= make_and_take(g, (const size_t[]){node % points[0], node / points[0] % points[1], node / points[0] / points[1]}, p + i, many);
-	}
+	for (size_t i = 0; i < m && g->t->gradient; i += PART)
+		finite &= make_and_take(g, node + i, p + i, m - i < PART ? m - i : PART);
 	if (!finite)
 #pragma omp atomic write
 		*g->bad = 1;
@@ -404,6 +408,41 @@ int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, co
 	else if (!status)
 		walk(&w, gather_run, &g);
 	strays->finite = !bad;
+	pm_free(w.room);
+	return status;
+}
+
+struct pass {
+	const struct pm_transfer *t;
+	const double *const *mesh;
+	double factor;
+	pm_on_nodes_few *few;
+	void *data;
+};
+
+static void pass_run(const void *data, size_t node, size_t p, size_t m)
+{
+	const struct pass *g = data;
+	double made[3][PART], *const value[3] = {made[0], made[1], made[2]};
+	for (size_t i = 0; i < m; i += PART) {
+		const size_t many = m - i < PART ? m - i : PART;
+		if (g->t->gradient)
+			make_row(g->t, node + i, many, made);
+		for (int c = 0; c < g->t->components; c++) {
+			const double *from = g->t->gradient ? made[c] : g->mesh[c] + node + i;
+			for (size_t k = 0; k < many; k++)
+				made[c][k] = g->factor * (from[k] + 0.); /* as in take() */
+		}
+		g->few(g->data, p + i, many, value);
+	}
+}
+
+int pm_on_nodes_pass(const struct pm_transfer *t, const struct pm_field *x, const double *const mesh[], double factor, pm_on_nodes_few *few, void *data)
+{
+	struct nodes w;
+	const int status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
+	if (!status)
+		walk(&w, pass_run, &(struct pass){t, mesh, factor, few, data});
 	pm_free(w.room);
 	return status;
 }

@@ -1,5 +1,6 @@
-/* The force of a mesh left to be made: the field and the positions are held as they are. A push that kicks and moves has it gathered for a few particles at a
- * time, whose positions and velocities it changes at once, so that the rates are never in memory; where somebody asks for them they are gathered as a whole.
+/* The force, or flow, of a mesh left to be made: the field and the positions are held as they are. A push that kicks and moves has it gathered for a few
+ * particles at a time, whose positions and velocities it changes at once, so that the rates are never in memory, and so does a scheme that moves by a flow;
+ * where somebody asks for them they are gathered as a whole.
  * The limit of orbits (rates.h), which only the rates tell, is found then; until then it is known not to be above that of the largest field on the mesh.
  * Cost: a pass over the field, for its largest value, where that is not known well enough. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
@@ -8,6 +9,7 @@
 
 #include "limit/rates.h"
 #include "mesh/gradient-later.h"
+#include "transfer/on-nodes.h"
 #include "transfer/rate-later.h"
 #include "transfer/transfer-pass.h"
 #include "world/world.h"
@@ -21,6 +23,7 @@ struct pm_rate_left {
 	double factor, pull;
 	double most, times;               /* of |rate|; of the particles' |factor| */
 	int dim;
+	bool on_nodes;                    /* and there is no order */
 };
 
 static void let_go(struct pm_later *later)
@@ -53,7 +56,7 @@ static int make(const struct pm_later *later, double *to)
 	struct pm_target out[PM_COMPONENTS];
 	const double *mesh[PM_COMPONENTS];
 	struct pm_strays strays;
-	struct pm_note *kept = &l->order->note;
+	struct pm_note *kept = l->order ? &l->order->note : NULL;
 	double *ratio = l->charge ? pm_alloc(later->from->count, sizeof *ratio) : NULL;
 	if (l->charge && !ratio)
 		return -PM_DATA;
@@ -67,7 +70,8 @@ static int make(const struct pm_later *later, double *to)
 		times[c] = (struct pm_column){.doubles = ratio, .value = l->factor};
 		out[c] = (struct pm_target){.doubles = to + (size_t)c * later->from->count};
 	}
-	const int status = pm_gather_columns(&t, later->from->count, x, mesh, times, out, &strays);
+	const int status = l->on_nodes ? pm_on_nodes_gather(&t, later->from, mesh, times, out, &strays)
+				       : pm_gather_columns(&t, later->from->count, x, mesh, times, out, &strays);
 	pm_free(ratio);
 	return status;
 }
@@ -136,16 +140,16 @@ static struct pm_order_cache *order_of(const struct pm_transfer *t, struct pm_no
 
 static bool can(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a)
 {
-	const struct pm_field *rate = pm_frame_field(f, set, j->law->change), *v = pm_frame_field(f, set, j->law->of), *x = pm_frame_field(f, set, "x");
+	const struct pm_field *rate = pm_frame_field(f, set, j->law->change), *of = pm_frame_field(f, set, j->law->of), *x = pm_frame_field(f, set, "x");
 	const struct pm_transfer *t = &a->t;
-	bool yes = pm_world_alone() && a->columns && !j->changes.n && !j->interlaced && !t->kernel->star && a->n && !strcmp(j->law->of, "v") && v &&
+	bool yes = pm_world_alone() && a->columns && !j->changes.n && !j->interlaced && !t->kernel->star && a->n && of && (of == x || !strcmp(of->name, "v")) &&
 		rate->type == PM_F64 && rate->use & PM_USE_NEW && rate->use & PM_USE_FILL && x->type == PM_F64 && j->field->type == PM_F64;
 	for (int d = 0; d < t->grid.dim && yes; d++)
 		yes = t->grid.face[d][0] == PM_PERIODIC && a->at[d].doubles;
 	for (int c = 0; c < t->components && yes; c++)
 		yes = t->set[c] && a->times[c].doubles == a->times[0].doubles && !a->times[c].floats &&
 			!memcmp(t->staggered[c], t->staggered[0], sizeof t->staggered[c]);
-	return yes && order_of(t, t->kept, x);
+	return yes && (a->on_nodes || order_of(t, t->kept, x));
 }
 
 int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left)
@@ -156,11 +160,13 @@ int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char 
 	struct pm_rate_left *l = calloc(1, sizeof *l);
 	if (!l)
 		return pm_no_memory();
-	*l = (struct pm_rate_left){.later = {.make = make, .free = let_go}, .t = a->t, .factor = a->times[0].value, .pull = j->pull, .dim = f->dim};
+	*l = (struct pm_rate_left){.later = {.make = make, .free = let_go}, .t = a->t, .factor = a->times[0].value, .pull = j->pull, .dim = f->dim,
+		.on_nodes = a->on_nodes};
 	l->t.kept = NULL, l->t.planes = NULL, l->t.gradient = NULL;
 	const char *const q = j->law->strength, *const m = j->law->per;
 	const double *ratio = a->times[0].doubles;
-	l->order = pm_order_cache_hold(order_of(&a->t, a->t.kept, pm_frame_field(f, set, "x")));
+	if (!l->on_nodes)
+		l->order = pm_order_cache_hold(order_of(&a->t, a->t.kept, pm_frame_field(f, set, "x")));
 	l->mesh = pm_field_held(j->field);
 	l->charge = ratio ? pm_field_held(pm_frame_field(f, set, q)) : NULL, l->mass = ratio ? pm_field_held(pm_frame_field(f, set, m)) : NULL;
 	if (!l->mesh || (ratio && (!l->charge || !l->mass)))
@@ -182,8 +188,9 @@ int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char 
 /* ---- the pass ---- */
 
 struct passing {
-	int dim, components, rates;
-	double *x[3], *v[3];
+	int dim, rates;
+	double *x[3];
+	struct pm_rate_beside beside;
 	struct pm_column factor;
 	pm_rate_few *few;
 	void *data;
@@ -196,17 +203,17 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 	const struct pm_tile_runs *runs = o->runs.run ? &o->runs : NULL;
 	const bool together = !runs || pm_tile_runs_together(runs, p, m), known = places && !together;
 	const size_t at = runs ? pm_tile_runs_at(runs, p) : p;
-	const int dim = k->dim, all = dim + k->components;
-	double few[6][pack], ratio[pack], *y[6] = {NULL}, *from[6];
-	const double *read[6];
+	const int dim = k->dim, all = dim + k->beside.n;
+	double few[PM_TILE_RUNS_MOST][pack], ratio[pack], *y[PM_TILE_RUNS_MOST] = {NULL}, *from[PM_TILE_RUNS_MOST];
+	const double *read[PM_TILE_RUNS_MOST];
 	for (int c = 0; c < all; c++) {
-		read[c] = from[c] = c < dim ? k->x[c] : k->v[c - dim];
+		read[c] = from[c] = c < dim ? k->x[c] : k->beside.of[c - dim];
 		y[c] = together ? from[c] + at : c < dim && known ? places[c] : few[c];
 	}
 	const int first = known ? dim : 0; /* positions were taken, and the next ones fetched, before the gather */
-	if (runs)
+	if (runs && first < all)
 		pm_tile_runs_fetch(runs, p + m, pack, all - first, read + first);
-	if (!together)
+	if (!together && first < all)
 		pm_tile_runs_take(runs, p, m, all - first, read + first, y + first);
 	const double *factor = k->factor.doubles ? pm_tile_order_take(o, p, m, &k->factor, ratio) : NULL;
 	for (size_t i = 0; i < m && factor && together; i += line)
@@ -216,7 +223,22 @@ static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, 
 			rate[c][i] *= factor[i];
 	k->few(k->data, m, y, y + dim, (const double *const *)rate);
 	if (!together)
-		pm_tile_runs_put(runs, p, m, all, (const double *const *)y, from);
+		pm_tile_runs_put(runs, p, m, dim + k->beside.back, (const double *const *)y, from);
+}
+
+/* m particles of the stream from p on, on nodes. */
+static void take_here(void *data, size_t p, size_t m, double *const rate[])
+{
+	const struct passing *k = data;
+	double *x[3] = {NULL}, *beside[PM_TILE_RUNS_MOST];
+	for (int d = 0; d < k->dim; d++)
+		x[d] = k->x[d] + p;
+	for (int c = 0; c < k->beside.n; c++)
+		beside[c] = k->beside.of[c] + p;
+	for (int c = 0; c < k->rates && k->factor.doubles; c++)
+		for (size_t i = 0; i < m; i++)
+			rate[c][i] *= k->factor.doubles[p + i];
+	k->few(k->data, m, x, beside, (const double *const *)rate);
 }
 
 static bool is_held(const struct pm_frame *f, const char *set, const struct pm_field *held)
@@ -228,12 +250,12 @@ static bool is_held(const struct pm_frame *f, const char *set, const struct pm_f
 bool pm_rate_can_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x)
 {
 	return pm_field_in_place(x, 1) && pm_column_of(l->later.from, 0).doubles == pm_column_of(x, 0).doubles && is_held(f, x->on, l->charge) &&
-		is_held(f, x->on, l->mass) && order_of(&l->t, &x->note, x);
+		is_held(f, x->on, l->mass) && (l->on_nodes || order_of(&l->t, &x->note, x));
 }
 
-int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x, struct pm_field *v, pm_rate_few *few, void *data)
+int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct pm_field *x, const struct pm_rate_beside *beside, pm_rate_few *few, void *data)
 {
-	struct passing k = {.dim = l->dim, .components = v->components, .rates = l->t.components, .few = few, .data = data};
+	struct passing k = {.dim = l->dim, .rates = l->t.components, .beside = *beside, .few = few, .data = data};
 	struct pm_transfer t;
 	struct pm_column at[3];
 	const double *mesh[PM_COMPONENTS];
@@ -243,9 +265,10 @@ int pm_rate_pass(const struct pm_rate_left *l, const struct pm_frame *f, struct 
 	t.kept = &x->note;
 	for (int d = 0; d < l->dim; d++)
 		k.x[d] = pm_out(x, d), at[d] = pm_column_doubles(k.x[d]);
-	for (int c = 0; c < v->components; c++)
-		k.v[c] = pm_out(v, c);
-	status = status ? status : pm_gather_taken(&t, x->count, at, mesh, l->charge ? 1 : l->factor, &(struct pm_tile_taker){take, &k});
+	const double factor = l->charge ? 1 : l->factor;
+	if (!status)
+		status = l->on_nodes ? pm_on_nodes_pass(&t, x, mesh, factor, take_here, &k)
+				     : pm_gather_taken(&t, x->count, at, mesh, factor, &(struct pm_tile_taker){take, &k});
 	pm_free(made);
 	pm_field_changed(x);
 	return status;

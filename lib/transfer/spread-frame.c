@@ -178,7 +178,7 @@ void pm_spread_background(const struct pm_spread_job *j, struct pm_frame *f)
 		pm_out(density, 0)[i] += background;
 }
 
-/* Sums of so many equal strengths are finite whatever the weights, which are 1 at most, and the images of walls. */
+/* Sums of so many strengths of a known size are finite whatever the weights, which are 1 at most, and the images of walls. */
 static bool surely_finite(const struct pm_spread_job *j, const struct pm_frame *f)
 {
 	const struct pm_grid g = pm_grid_of(f, j->mesh);
@@ -188,7 +188,8 @@ static bool surely_finite(const struct pm_spread_job *j, const struct pm_frame *
 	for (size_t i = 0; i < j->sets.n; i++) {
 		const struct pm_field *q = pm_frame_field(f, j->sets.name[i], j->strength);
 		for (int c = 0; c < q->components; c++)
-			most += (double)pm_frame_set(f, j->sets.name[i])->n * (q->uniform && q->extensive ? fabs(q->value[c]) : INFINITY);
+			most += (double)pm_frame_set(f, j->sets.name[i])->n * (!q->extensive ? INFINITY : q->uniform ? fabs(q->value[c]) :
+				q->within > 0 ? q->within : INFINITY);
 	}
 	if (j->law->background)
 		most += fabs(pm_frame_constant(f, j->law->background, 0)) * fmax(volume, 1);

@@ -54,7 +54,7 @@ static inline bool pm_tile_runs_together(const struct pm_tile_runs *r, size_t p,
 	return pm_tile_runs_at(r, p + m - 1) - pm_tile_runs_at(r, p) == m - 1;
 }
 
-/* Numbers of the m particles from p on, of n <= PM_TILE_RUNS_MOST arrays: from the stream to to[n][m], and back. */
+/* Numbers of the m particles from p on, of 1 <= n <= PM_TILE_RUNS_MOST arrays: from the stream to to[n][m], and back. */
 void pm_tile_runs_take(const struct pm_tile_runs *r, size_t p, size_t m, int n, const double *const from[], double *const to[]);
 void pm_tile_runs_put(const struct pm_tile_runs *r, size_t p, size_t m, int n, const double *const from[], double *const to[]);
 /* Where each stands. */

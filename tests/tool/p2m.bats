@@ -88,6 +88,10 @@ two='x vx mass\n1.25 0 2\n2.75 0 1\n'
 	done
 	run -3 bash -o pipefail -c 'pinit uniform -n 1000 --length 1e-104 --mass 1e-17 --cells 8 | p2m >/dev/null' # 1 / (volume of a cell) is infinite
 	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
+	# strengths whose largest is known from remesh: 1e307 on 8 nodes, in cells of 1/8 and 1/512
+	local words='remesh -n 2 --drop v | p2m -n 8 | poisson-fft | mgrad | m2p | push drift'
+	run -3 bash -o pipefail -c "smove --scale mass=10 <large | cycle -n 1 '$words' >/dev/null"
+	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
 	run -3 bash -o pipefail -c 'smove --scale mass=1e4 <large | scalc --set matter --role state --extensive "mass = mass + 0*id" | p2m >/dev/null'
 	[[ $output == *"'rho' of 'mesh' is not finite"* ]]
 }
