@@ -154,10 +154,11 @@ patch() {
 	[[ $output =~ "'v' on 'matter' is a value, which cannot be distributed to nodes (--by mass remeshes mass times v, --drop v removes it)" ]]
 	sh_ok 'remesh -n 5 --drop v <a | sls'
 	[[ ! $output =~ " v " ]]
-	stab --plain <a >before
+	scalc --set matter --role state 'heat = 1 + id/60' <a >b # behind the mass
+	stab --plain <b >before
 	for cells in 5x6x4 2; do # some nodes are kept, and all
-		remesh -n $cells --by mass --kernel tsc <a | stab --plain >after
-		for v in vx vy vz; do
+		remesh -n $cells --by mass --kernel tsc <b | stab --plain >after
+		for v in vx vy vz heat; do
 			within "$(total "mass*$v" <after)" "$(total "mass*$v" <before)" 1e-14
 		done
 	done
