@@ -463,6 +463,18 @@ PM_SIMD_INLINE unsigned pm_simd_outside(pm_simd v, pm_simd low, pm_simd high)
 #endif
 }
 
+#ifdef __AVX512F__
+#define PM_SIMD_DOWN 1
+/* a + b, rounded down; and of each number the lower half of its bits. */
+PM_SIMD_INLINE pm_simd pm_simd_add_down(pm_simd a, pm_simd b)
+{
+	return (pm_simd)_mm512_add_round_pd((__m512d)a, (__m512d)b, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+PM_SIMD_INLINE pm_simd_int pm_simd_low_halves(pm_simd v) { return (pm_simd_int)_mm512_cvtepi64_epi32((__m512i)v); }
+#else
+#define PM_SIMD_DOWN 0
+#endif
+
 /* The whole part of v >= 0, below 2^31, and what is left of v. */
 PM_SIMD_INLINE pm_simd pm_simd_split(pm_simd v, pm_simd_int *whole)
 {
