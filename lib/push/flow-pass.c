@@ -1,5 +1,6 @@
 /* Positions that move by a flow, x' = vel, where m2p has left vel to be made (transfer/rate-later.h): of a few particles at a time it is gathered from the
- * mesh, and a scheme, or a drift, advances their registers and positions at once by the loops of state-advance.c: the same bytes. In a periodic box.
+ * mesh, and a scheme, or a drift, advances their registers and positions at once by the loops of state-advance.c: the same bytes. In a periodic box, and
+ * with no more registers than go together with positions: not rk4 in space.
  * Cost: positions and registers read and written once, in the plane 2 + 2 numbers of a particle for each register, where m2p and push read and write 6 more.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
@@ -22,7 +23,7 @@ void pm_flow_declare(const struct pm_frame *f, struct pm_moving *m, const struct
 	const struct pm_rate *r = &m->rates[0];
 	bool can = p->later && p->moves && !p->magnetic && pm_world_alone() && m->n == 1 && r->state == m->x && r->rate->role == PM_CHANGE;
 	can = can && m->x->type == PM_F64 && r->rate->type == PM_F64 && m->x->components == f->dim && r->rate->components == f->dim;
-	can = can && !(p->scheme && pm_step_decides(p->scheme)) && f->dim * (1 + registers_of(r)) <= PM_TILE_RUNS_MOST;
+	can = can && !(p->scheme && pm_step_decides(p->scheme));
 	for (int d = 0; d < f->dim && can; d++)
 		can = f->pface[d][0] == PM_PFOLD && f->pface[d][1] == PM_PFOLD;
 	if (can)
@@ -40,6 +41,8 @@ struct passing {
 	struct pm_bounds box[3];
 	struct seen *seen; /* [threads] a line of the cache each */
 };
+
+_Static_assert((int)PM_RATE_FEW <= (int)PM_ADVANCE_BLOCK, "pm_advance_few");
 
 static void few(void *data, size_t m, double *const x[3], double *const q[], const double *const rate[3])
 {
@@ -82,7 +85,7 @@ int pm_flow_pass(const struct pm_frame *f, const struct pm_moving *m, const stru
 	if (m->n != 1 || m->rates[0].state != m->x || !(m->x->use & PM_USE_WAITS))
 		return 0;
 	const struct pm_rate_left *l = pm_rate_left_of(m->rates[0].rate);
-	if (l && pm_rate_can_pass(l, f, m->x))
+	if (l && f->dim * (1 + registers_of(&m->rates[0])) <= PM_TILE_RUNS_MOST && pm_rate_can_pass(l, f, m->x))
 		return pass(f, m, l, a, h, crossed);
-	return pm_field_now(m->x) || pm_field_now(m->rates[0].rate) ? -PM_DATA : 0;
+	return pm_field_now(m->rates[0].rate) || pm_field_now(m->x) ? -PM_DATA : 0; /* who holds x is given up first */
 }

@@ -17,7 +17,7 @@ struct pm_push {
 	bool open, moves, unsafe;        /* a kick follows after the drift; positions change; any step length is allowed */
 	double tolerance, floor, most;   /* of an error-controlled scheme: the error of a step, 0: steps of one length; its least and longest step [time] */
 	bool dense;                      /* an embedded pair keeps its rates for states between the ends of a step */
-	bool later;                      /* a kick may be left to be made (kick-later.h) */
+	bool later;                      /* values may be left to be made, or are (kick-later.h, motion-pass.h, flow-pass.h) */
 	bool clear;                      /* change and derived fields are dropped afterwards */
 };
 

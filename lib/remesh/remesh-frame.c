@@ -261,7 +261,7 @@ static int renew(struct pm_frame *f, const char *set, struct work *w, const stru
 		made->use |= PM_USE_DONE;
 	if (!status && (e->part == STRENGTH || ((e->part == POSITION || e->part == VOLUME) && pm_remesh_is_finite(&w->r))))
 		made->use |= PM_USE_SEEN; /* strengths were looked at on the nodes */
-	if (!status && e->part == STRENGTH && made->components == 1 && !w->shared)
+	if (!status && e->part == STRENGTH && made->components == 1 && made->type == PM_F64 && !w->shared)
 		made->within = w->r.most[e->first];
 	return pm_world_agree(status);
 }

@@ -11,7 +11,7 @@
 #include "transfer/tile-gradient.h"
 #include "world/world.h"
 
-enum { PIECE = 4096, FEW = 16, PART = 488 /* less than a page: rows a page apart are in each other's way in the cache */ };
+enum { PIECE = 4096, FEW = 16, PART = PM_ON_NODES_FEW };
 
 struct nodes {
 	const struct pm_grid *g;
@@ -440,9 +440,9 @@ static void pass_run(const void *data, size_t node, size_t p, size_t m)
 int pm_on_nodes_pass(const struct pm_transfer *t, const struct pm_field *x, const double *const mesh[], double factor, pm_on_nodes_few *few, void *data)
 {
 	struct nodes w;
-	const int status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
-	if (!status)
-		walk(&w, pass_run, &(struct pass){t, mesh, factor, few, data});
+	int status = can(t, x, &w) ? begin(&w, x) : pm_fail(PM_DATA, "particles that are not on nodes");
+	if (!status && !walk(&w, pass_run, &(struct pass){t, mesh, factor, few, data}))
+		status = pm_fail(PM_DATA, "particles that are not on nodes");
 	pm_free(w.room);
 	return status;
 }

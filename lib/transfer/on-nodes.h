@@ -14,8 +14,9 @@ void pm_on_nodes_keep(const struct pm_grid *g, const struct pm_field *x);
 int pm_on_nodes_spread(const struct pm_transfer *t, const struct pm_field *x, const struct pm_column strength[], bool replaces, double *const mesh[]);
 int pm_on_nodes_gather(const struct pm_transfer *t, const struct pm_field *x, const double *const mesh[], const struct pm_column factor[],
 	const struct pm_target out[], struct pm_strays *strays);
-/* The same of particles in a periodic box, times one factor, to who takes a few of the stream from p on at a time, values[components][m], and may change them
- * and their positions. By threads. */
+/* The same of particles in a periodic box, times one factor, to who takes m <= PM_ON_NODES_FEW of the stream from p on at a time, value[components][m], and may
+ * change them and their positions. By threads. */
+enum { PM_ON_NODES_FEW = 488 }; /* less than a page: rows a page apart are in each other's way in the cache */
 typedef void pm_on_nodes_few(void *data, size_t p, size_t m, double *const value[]);
 int pm_on_nodes_pass(const struct pm_transfer *t, const struct pm_field *x, const double *const mesh[], double factor, pm_on_nodes_few *few, void *data);
 

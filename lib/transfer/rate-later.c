@@ -199,6 +199,7 @@ struct passing {
 static void take(void *data, const struct pm_tile_order *o, size_t p, size_t m, double *const places[], double *const rate[])
 {
 	enum { pack = PM_TILE_ORDER_PACK, line = 8 };
+	_Static_assert((int)pack <= (int)PM_RATE_FEW && (int)PM_ON_NODES_FEW <= (int)PM_RATE_FEW, "room of those who take them");
 	const struct passing *k = data;
 	const struct pm_tile_runs *runs = o->runs.run ? &o->runs : NULL;
 	const bool together = !runs || pm_tile_runs_together(runs, p, m), known = places && !together;

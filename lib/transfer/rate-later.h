@@ -9,7 +9,7 @@
 #include "transfer/tile-runs.h"
 
 struct pm_rate_left;
-enum { PM_RATE_FEW = 512 };
+enum { PM_RATE_FEW = 512 }; /* the most particles that are handed over at once */
 
 /* In frame(): leaves the rate of a set, which a[] gathers, to be made; *left false: it does not. 0 or failure. */
 int pm_rate_leave(const struct pm_gather_job *j, struct pm_frame *f, const char *set, const struct pm_gather_arrays *a, bool *left);

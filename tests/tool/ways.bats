@@ -222,6 +222,13 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 		scalc --no-history --set matter --role state "x = x + 0.45*(id == $at && $at < 9e4), y + 0.5*(id == $at && $at > 9e4 && $at < 2e5), \
 			z + 0.5*(id == $at && $at > 2e5)" <order | smove --no-history --shift 0,0,0 >stray$at
 	done
+	# one in a tile further up each axis, and one of a tile that ends with the box in front of its end, beyond that
+	set -- "$(stab --plain <order | awk '$2 < 0.2 && $3 < 0.2 && $4 < 0.2 && NR > 5000 { print $8; exit }')" \
+		"$(stab --plain <order | awk '$2 > 0.85 && $2 < 0.95 && NR > 5000 { print $8; exit }')"
+	scalc --no-history --set matter --role state "x = x + 0.7*(id == $1), y, z" <order >up0
+	scalc --no-history --set matter --role state "x = x, y + 0.3*(id == $1), z" <order >up1
+	scalc --no-history --set matter --role state "x = x, y, z + 0.4*(id == $1)" <order >up2
+	scalc --no-history --set matter --role state "x = x + 0.2*(id == $2), y, z" <order >beyond
 	smod --no-history --rename matter=other <stray299999 >other
 	# some of a tile that has few
 	pinit uniform -n 202752 --cells 33x64x24 | ssort --no-history >few
@@ -232,7 +239,7 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	pinit uniform -n 300000 --cells 44x64x24 --faces open --particle-faces open |
 		scalc --no-history --set matter --role state 'x = 0.05 + 0.9*x, 0.05 + 0.9*y, 0.05 + 0.9*z' | ssort --no-history |
 		scalc --no-history --set matter --role state 'x = x + (id == 50001), y, z' >left
-	for at in order stray50001 stray149998 stray299999 both few strayfew left; do
+	for at in order stray50001 stray149998 stray299999 both few strayfew left up0 up1 up2 beyond; do
 		p2m --no-history --kernel cic --add <$at >want # counts first: what it is added to cannot be cleared
 		for threads in 1 2 3; do
 			OMP_NUM_THREADS=$threads p2m --no-history --kernel cic <$at >have
