@@ -463,6 +463,19 @@ PM_SIMD_INLINE unsigned pm_simd_outside(pm_simd v, pm_simd low, pm_simd high)
 #endif
 }
 
+/* Is a bit set? */
+PM_SIMD_INLINE bool pm_simd_any_bit(pm_simd_bits v)
+{
+#ifdef __AVX512F__
+	return _mm512_test_epi64_mask((__m512i)v, (__m512i)v);
+#else
+	int64_t bits = 0;
+	for (int l = 0; l < PM_SIMD_WIDTH; l++)
+		bits |= v[l];
+	return bits;
+#endif
+}
+
 #ifdef __AVX512F__
 #define PM_SIMD_DOWN 1
 /* a + b, rounded down; and of each number the lower half of its bits. */

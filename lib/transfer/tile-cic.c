@@ -14,59 +14,128 @@ PM_SIMD_INLINE pm_simd_int square_of(const struct eight *e)
 PM_SIMD_INLINE void add_to_squares(double *restrict squares, int32_t square, const double *yz, double x)
 {
 	pm_simd4_at *to = (pm_simd4_at *)(squares + (size_t)(uint32_t)square * PM_SQUARE);
-	const pm_simd4_at four = *(const pm_simd4_at *)yz, far = {x, x, x, x}; /* one load, where x and 1 - x as numbers would be spread twice */
+	const pm_simd4_at four = *(const pm_simd4_at *)yz, far = pm_simd4_here(x); /* one load, where x and 1 - x as numbers would be spread twice */
 	to[0] += four * (1 - far);
 	to[1] += four * far;
 }
 
-/* What some particles add to their squares, for the loop that adds. */
-struct shares {
-	double yz[PM_TILE_ORDER_PACK * 4] __attribute__((aligned(64))), x[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
-	int32_t at[PM_TILE_ORDER_PACK] __attribute__((aligned(64)));
+/* A batch is added as STREAMS streams in turn, of so many particles each, then the rest: in a stream that is in the order of cells a sum would wait for the
+ * one before it. */
+enum { STREAMS = 4, LOT = STREAMS * PM_SIMD_WIDTH };
+PM_SIMD_INLINE size_t of_each(size_t m) { return m / (STREAMS * 8) * 8; }
+
+/* What a register of each stream adds to its squares. */
+struct lot {
+	double yz[LOT * 4] __attribute__((aligned(64))), x[LOT] __attribute__((aligned(64)));
+	int32_t at[LOT] __attribute__((aligned(64)));
 };
 
-PM_SIMD_INLINE void share_at(pm_simd_int square, const pm_simd distance[3], pm_simd strength, size_t i, struct shares *s)
+PM_SIMD_INLINE void share(pm_simd_int square, const pm_simd distance[3], pm_simd strength, size_t i, struct lot *to)
 {
 	const pm_simd low = (1 - distance[2]) * strength, high = distance[2] * strength, y = distance[1], below = 1 - y;
-	*(pm_simd_int_at *)(s->at + i) = square;
-	pm_simd_store(s->x + i, distance[0]);
-	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, s->yz + 4 * i);
+	*(pm_simd_int_at *)(to->at + i) = square;
+	pm_simd_store(to->x + i, distance[0]);
+	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, to->yz + 4 * i);
 }
 
-PM_SIMD_INLINE void share(const struct eight *e, pm_simd strength, size_t i, struct shares *s)
-{
-	share_at(square_of(e), e->distance, strength, i, s);
-}
-
-PM_SIMD_INLINE void add_share(const struct shares *s, size_t i, size_t l, double *squares)
+PM_SIMD_INLINE void add_share(const struct lot *s, size_t i, size_t l, double *squares)
 {
 	add_to_squares(squares, s->at[i + l], s->yz + 4 * i + turned(l), s->x[i + l]);
 }
 
-/* A lot of m particles is added as STREAMS streams in turn, of so many each, then the rest: in a stream that is in the order of cells a sum would wait for the
- * one before it. */
-enum { STREAMS = 4 };
-PM_SIMD_INLINE size_t of_each(size_t m) { return m / (STREAMS * 8) * 8; }
+/* Part k of STREAMS of a lot. */
+PM_SIMD_INLINE void add_part(const struct lot *s, size_t k, double *squares)
+{
+	enum { part = (PM_SIMD_WIDTH + STREAMS - 1) / STREAMS };
+	PM_SIMD_UNROLL
+	for (size_t l = k * part; l < k * part + part; l++) {
+		PM_SIMD_UNROLL
+		for (size_t stream = 0; stream < STREAMS; stream++)
+			add_share(s, stream * PM_SIMD_WIDTH, l, squares);
+	}
+}
 
-PM_SIMD_INLINE void add_shares(const struct shares *s, size_t m, double *squares)
+/* Where particles come from: a batch and its strengths, or the records of t. One for each loop, so that its numbers stay in registers: what is stored might be
+ * those of the caller. */
+struct source {
+	const struct pm_tile *t;
+	struct pm_tile_batch batch;
+	const double *q;
+	pm_simd_int beyond[3];  /* bits of all cells, where it is looked whether particles are in the tile */
+	pm_simd_bits differ[3]; /* find_assumed: bits in which they are not `big` */
+	pm_simd down[3], first; /* big less the tile's first cell; the number of its first square */
+};
+/* Shares of a register of particles, from i on, to place `at` of a lot. */
+typedef void find(struct source *s, size_t i, size_t at, struct lot *to);
+
+PM_SIMD_INLINE bool all_inside(const struct source *s)
+{
+	pm_simd_int beyond = {0};
+	pm_simd_bits differ = {0};
+	for (int d = 0; d < 3; d++)
+		beyond |= s->beyond[d] >> pm_tile_shift[3][d], differ |= s->differ[d] >> pm_tile_shift[3][d];
+	return !pm_simd_any_bit(differ) && !pm_simd_int_others(beyond, 0);
+}
+
+/* The streams of m particles: a lot is added, part by part, while the next one is found (0.83 of a spread at 8 a cell). False: one is beyond the tile, and not
+ * all are added. */
+PM_SIMD_INLINE bool add_streams(struct source *s, find *found, size_t m, double *squares)
 {
 	const size_t each = of_each(m);
-	size_t i = 0;
-	for (; i < each; i += PM_SIMD_WIDTH) {
+	struct lot lots[2], *last = lots;
+	for (size_t i = 0; i < each; i += PM_SIMD_WIDTH) {
+		struct lot *here = &lots[i / PM_SIMD_WIDTH % 2];
 		PM_SIMD_UNROLL
-		for (size_t l = 0; l < PM_SIMD_WIDTH; l++) {
-			PM_SIMD_UNROLL
-			for (size_t k = 0; k < STREAMS; k++)
-				add_share(s, i + k * each, l, squares);
+		for (size_t k = 0; k < STREAMS; k++) {
+			found(s, i + k * each, k * PM_SIMD_WIDTH, here);
+			if (i)
+				add_part(last, k, squares);
 		}
+		if (!all_inside(s))
+			return false;
+		last = here;
 	}
-	for (i *= STREAMS; i < m; i++)
-		add_share(s, i / PM_SIMD_WIDTH * PM_SIMD_WIDTH, i % PM_SIMD_WIDTH, squares);
+	for (size_t k = 0; k < STREAMS && each; k++)
+		add_part(last, k, squares);
+	return true;
+}
+
+/* The rest, likewise. */
+PM_SIMD_INLINE bool add_rest(struct source *s, find *found, size_t m, double *squares)
+{
+	struct lot lot;
+	for (size_t from = STREAMS * of_each(m), some; from < m; from += some) {
+		some = m - from < LOT ? m - from : LOT;
+		for (size_t i = 0; i < some; i += PM_SIMD_WIDTH)
+			found(s, from + i, i, &lot);
+		if (!all_inside(s))
+			return false;
+		for (size_t i = 0; i < some; i++)
+			add_share(&lot, i / PM_SIMD_WIDTH * PM_SIMD_WIDTH, i % PM_SIMD_WIDTH, squares);
+	}
+	return true;
+}
+
+PM_SIMD_INLINE void find_in_batch(struct source *s, size_t i, size_t at, struct lot *to)
+{
+	const struct eight e = find_eight(s->t, &s->batch, i);
+	pm_simd strength;
+	if (i + PM_SIMD_WIDTH <= s->batch.m) {
+		strength = pm_simd_load_any(s->q + i);
+	} else {
+		double few[PM_SIMD_WIDTH] = {0};
+		memcpy(few, s->q + i, (s->batch.m - i) * sizeof *s->q);
+		strength = pm_simd_load_any(few);
+	}
+	__builtin_prefetch(s->batch.next_value + i, 0, 2);
+	for (int d = 0; d < 3 && s->batch.outside; d++)
+		s->beyond[d] |= e.cell[d];
+	share(square_of(&e), e.distance, strength, at, to);
 }
 
 #if PM_SIMD_DOWN
 /* Where each number between it and twice it is whole, and the last bits count. */
-static const double big = 0x1p52;
+static const double big = 0x1p52, y_apart = PM_ROW_SQUARES, z_apart = PM_PLANE_SQUARES;
 
 /* May a particle that is in the tile's cells be anywhere but where its position says? */
 static bool is_plain(const struct pm_tile *t, const struct pm_tile_batch *b)
@@ -79,101 +148,81 @@ static bool is_plain(const struct pm_tile *t, const struct pm_tile_batch *b)
 	return plain;
 }
 
-/* Particles that are assumed to be in a tile, where that is plain, as many as fill registers: as find_eight finds them, but that the sum that rounds down to a
- * cell also holds its number, and nobody looks whether a particle is beyond the box: there it is beyond the tile (0.95 of a spread at 8 a cell). False: one is.
- * *done: how many. */
-static bool share_assumed(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q, size_t *done, struct shares *s)
+/* Where the tile is plain, and each particle is assumed to be in it: as find_eight finds them, but that the sum that rounds down to a cell also holds its
+ * number, and nobody looks whether a particle is beyond the box: there it is beyond the tile (0.95 of a spread at 8 a cell). */
+PM_SIMD_INLINE void find_assumed(struct source *s, size_t i, size_t at, struct lot *to)
 {
-	const bool plain = is_plain(t, b);
-	pm_simd_bits beyond[3] = {{0}}, any = {0};
-	pm_simd lo[3], h[3], inverse[3], add[3], down[3];
-	const double y_apart = PM_ROW_SQUARES, z_apart = PM_ROW_SQUARES << pm_tile_shift[3][1];
-	const pm_simd first = pm_simd_all(-(y_apart * (double)t->cell[1] + z_apart * (double)t->cell[2]));
+	const struct pm_tile_batch *b = &s->batch;
+	pm_simd cell[3], whole[3], distance[3];
+	PM_SIMD_UNROLL
 	for (int d = 0; d < 3; d++) {
-		lo[d] = b->lanes[d].lo, h[d] = b->lanes[d].h, inverse[d] = b->lanes[d].inverse, add[d] = b->lanes[d].add;
-		down[d] = pm_simd_all(big - (double)t->cell[d]);
+		const struct pm_axis_lanes *a = &b->lanes[d];
+		__builtin_prefetch(b->next[d] + i, 0, 2);
+		const pm_simd u = pm_simd_divide(pm_simd_load_any(b->x[d] + i) - a->lo, a->h, a->inverse) + a->add;
+		cell[d] = pm_simd_add_down(u, s->down[d]);
+		whole[d] = cell[d] - s->down[d], distance[d] = u - whole[d];
+		s->differ[d] |= (pm_simd_bits)cell[d] ^ (pm_simd_bits)pm_simd_all(big);
 	}
-	size_t i = 0;
-	for (; i + PM_SIMD_WIDTH <= b->m && plain; i += PM_SIMD_WIDTH) {
-		pm_simd cell[3], whole[3], distance[3];
-		PM_SIMD_UNROLL
-		for (int d = 0; d < 3; d++) {
-			__builtin_prefetch(b->next[d] + i, 0, 3);
-			const pm_simd u = pm_simd_divide(pm_simd_load_any(b->x[d] + i) - lo[d], h[d], inverse[d]) + add[d];
-			cell[d] = pm_simd_add_down(u, down[d]);
-			whole[d] = cell[d] - down[d], distance[d] = u - whole[d];
-			beyond[d] |= (pm_simd_bits)cell[d] ^ (pm_simd_bits)pm_simd_all(big);
-		}
-		__builtin_prefetch(b->next_value + i, 0, 3);
-		share_at(pm_simd_low_halves(z_apart * whole[2] + (y_apart * whole[1] + (cell[0] + first))), distance, pm_simd_load_any(q + i), i, s);
-	}
+	__builtin_prefetch(b->next_value + i, 0, 2);
+	const pm_simd row = pm_simd_fma(pm_simd_all(y_apart), whole[1], cell[0] - s->first), square = pm_simd_fma(pm_simd_all(z_apart), whole[2], row);
+	share(pm_simd_low_halves(square), distance, pm_simd_load_any(s->q + i), at, to);
+}
+
+static bool add_assumed(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	struct source s = {.t = t, .batch = *b, .q = q};
+	s.first = pm_simd_all(y_apart * (double)t->cell[1] + z_apart * (double)t->cell[2]);
 	for (int d = 0; d < 3; d++)
-		any |= beyond[d] >> pm_tile_shift[3][d];
-	*done = i;
-	int64_t bits = 0;
-	for (int l = 0; l < PM_SIMD_WIDTH; l++)
-		bits |= any[l];
-	return !bits;
+		s.down[d] = pm_simd_all(big - (double)t->cell[d]);
+	return add_streams(&s, find_assumed, b->m, t->squares);
 }
 #else
-static bool share_assumed(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q, size_t *done, struct shares *s)
-{
-	(void)t, (void)b, (void)q, (void)s;
-	*done = 0;
-	return true;
-}
+static bool is_plain(const struct pm_tile *t, const struct pm_tile_batch *b) { return (void)t, (void)b, false; }
+static bool add_assumed(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q) { return (void)t, (void)b, (void)q, false; }
 #endif
 
-void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *batch, const double *q)
+static bool add_batch(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
 {
-	const size_t m = batch->m;
-	struct shares s;
-	double few[PM_SIMD_WIDTH] = {0};
-	pm_simd_int beyond = {0};
-	size_t i = 0;
-	if (batch->outside && !share_assumed(t, batch, q, &i, &s)) {
-		__atomic_store_n(batch->outside, true, __ATOMIC_RELAXED);
-		return;
+	struct source s = {.t = t, .batch = *b, .q = q};
+	return add_streams(&s, find_in_batch, b->m, t->squares);
+}
+
+static bool add_rest_of_batch(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	struct source s = {.t = t, .batch = *b, .q = q};
+	return add_rest(&s, find_in_batch, b->m, t->squares);
+}
+
+void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
+{
+	const bool inside = b->outside && is_plain(t, b) ? add_assumed(t, b, q) : add_batch(t, b, q);
+	if (!inside || (STREAMS * of_each(b->m) < b->m && !add_rest_of_batch(t, b, q)))
+		__atomic_store_n(b->outside, true, __ATOMIC_RELAXED);
+}
+
+PM_SIMD_INLINE void find_of_records(struct source *s, size_t i, size_t at, struct lot *to)
+{
+	const struct pm_tile *t = s->t;
+	pm_simd strength;
+	const struct eight e = find_eight_of_records(t, i, &strength);
+	if (t->value != 3) {
+		double few[PM_SIMD_WIDTH];
+		for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
+			few[l] = t->records[(i + (i + l < t->count ? l : 0)) * (size_t)t->stride + (size_t)t->value];
+		strength = pm_simd_load_any(few);
 	}
-	for (; i < m; i += PM_SIMD_WIDTH) {
-		const struct eight e = find_eight(t, batch, i);
-		pm_simd strength;
-		if (i + PM_SIMD_WIDTH <= m) {
-			strength = pm_simd_load_any(q + i);
-		} else {
-			memcpy(few, q + i, (m - i) * sizeof *q);
-			strength = pm_simd_load_any(few);
-		}
-		__builtin_prefetch(batch->next_value + i, 0, 2);
-		beyond |= (e.cell[0] >> pm_tile_shift[3][0]) | (e.cell[1] >> pm_tile_shift[3][1]) | (e.cell[2] >> pm_tile_shift[3][2]);
-		share(&e, strength, i, &s);
-	}
-	if (batch->outside && pm_simd_int_others(beyond, 0)) {
-		__atomic_store_n(batch->outside, true, __ATOMIC_RELAXED);
-		return;
-	}
-	add_shares(&s, m, t->squares);
+	share(square_of(&e), e.distance, strength, at, to);
 }
 
 void pm_tile_cic_spread_eight(const struct pm_tile *all)
 {
 	struct pm_tile t = *all;
-	struct shares s;
+	struct source s = {.t = &t};
 	for (size_t from = 0; from < all->count; from += PM_TILE_ORDER_PACK) {
 		t.records = all->records + from * (size_t)t.stride;
 		t.count = all->count - from < PM_TILE_ORDER_PACK ? all->count - from : PM_TILE_ORDER_PACK;
-		for (size_t i = 0; i < t.count; i += PM_SIMD_WIDTH) {
-			pm_simd strength;
-			const struct eight e = find_eight_of_records(&t, i, &strength);
-			if (t.value != 3) {
-				double few[PM_SIMD_WIDTH];
-				for (size_t l = 0; l < PM_SIMD_WIDTH; l++)
-					few[l] = t.records[(i + (i + l < t.count ? l : 0)) * (size_t)t.stride + (size_t)t.value];
-				strength = pm_simd_load_any(few);
-			}
-			share(&e, strength, i, &s);
-		}
-		add_shares(&s, t.count, t.squares);
+		add_streams(&s, find_of_records, t.count, t.squares);
+		add_rest(&s, find_of_records, t.count, t.squares);
 	}
 }
 

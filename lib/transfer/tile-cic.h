@@ -16,7 +16,7 @@ struct pm_tile_batch {
 	struct pm_axis_lanes lanes[3];
 	size_t p, m;
 	const double *x[3];    /* their positions */
-	bool *outside;         /* spread: NULL, or set where a particle is not in the tile; then nothing of the batch is added */
+	bool *outside;         /* spread: NULL, or set where a particle is not in the tile; then not all of the batch is added */
 	const double *next[3], *next_value; /* those of a later batch, and the strengths of a spread, which the loops fetch */
 };
 static inline struct pm_tile_batch pm_tile_batch(const struct pm_tile_order *o)

@@ -16,7 +16,7 @@ static const int pm_block_rows[4] = {0, 1, 64 + 11, PM_BLOCK_ROWS};
 static const int pm_block_planes[4] = {0, 1, 1, PM_BLOCK_PLANES};
 enum { PM_BLOCK_MOST = PM_BLOCK_ROW * PM_BLOCK_ROWS * PM_BLOCK_PLANES, PM_TILE_CELLS = 4096 };
 /* A square is the four points beside a point of a row of cells, at y and y + 1, z and z + 1; a row has 33, to whole lines of the cache 34. */
-enum { PM_SQUARE = 4, PM_ROW_SQUARES = 34, PM_TILE_SQUARES = 16 * 8 * PM_ROW_SQUARES * PM_SQUARE };
+enum { PM_SQUARE = 4, PM_ROW_SQUARES = 34, PM_PLANE_SQUARES = 16 * PM_ROW_SQUARES, PM_TILE_SQUARES = 8 * PM_PLANE_SQUARES * PM_SQUARE };
 
 /* Arguments of the loops over particles. */
 struct pm_tile {
