@@ -467,12 +467,12 @@ PM_SIMD_INLINE unsigned pm_simd_outside(pm_simd v, pm_simd low, pm_simd high)
 PM_SIMD_INLINE bool pm_simd_any_bit(pm_simd_bits v)
 {
 #ifdef __AVX512F__
-	return _mm512_test_epi64_mask((__m512i)v, (__m512i)v);
+	return _mm512_test_epi64_mask((__m512i)v, (__m512i)v) != 0;
 #else
 	int64_t bits = 0;
 	for (int l = 0; l < PM_SIMD_WIDTH; l++)
 		bits |= v[l];
-	return bits;
+	return bits != 0;
 #endif
 }
 

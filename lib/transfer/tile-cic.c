@@ -19,95 +19,98 @@ PM_SIMD_INLINE void add_to_squares(double *restrict squares, int32_t square, con
 	to[1] += four * far;
 }
 
-/* A batch is added as STREAMS streams in turn, of so many particles each, then the rest: in a stream that is in the order of cells a sum would wait for the
- * one before it. */
+/* m particles are added as STREAMS streams in turn, of of_each(m) particles each, then the rest: in a stream that is in the order of cells a sum would wait for
+ * the one before it. */
 enum { STREAMS = 4, LOT = STREAMS * PM_SIMD_WIDTH };
 PM_SIMD_INLINE size_t of_each(size_t m) { return m / (STREAMS * 8) * 8; }
 
-/* What a register of each stream adds to its squares. */
-struct lot {
+/* What a lot of particles, a register of each stream, adds to its squares. */
+struct shares {
 	double yz[LOT * 4] __attribute__((aligned(64))), x[LOT] __attribute__((aligned(64)));
 	int32_t at[LOT] __attribute__((aligned(64)));
 };
 
-PM_SIMD_INLINE void share(pm_simd_int square, const pm_simd distance[3], pm_simd strength, size_t i, struct lot *to)
+PM_SIMD_INLINE void share(pm_simd_int square, const pm_simd distance[3], pm_simd strength, size_t place, struct shares *to)
 {
 	const pm_simd low = (1 - distance[2]) * strength, high = distance[2] * strength, y = distance[1], below = 1 - y;
-	*(pm_simd_int_at *)(to->at + i) = square;
-	pm_simd_store(to->x + i, distance[0]);
-	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, to->yz + 4 * i);
+	*(pm_simd_int_at *)(to->at + place) = square;
+	pm_simd_store(to->x + place, distance[0]);
+	turn_out((const pm_simd[]){low * below, high * below, low * y, high * y}, to->yz + 4 * place);
 }
 
-PM_SIMD_INLINE void add_share(const struct lot *s, size_t i, size_t l, double *squares)
+PM_SIMD_INLINE void add_share(const struct shares *s, size_t place, size_t lane, double *squares)
 {
-	add_to_squares(squares, s->at[i + l], s->yz + 4 * i + turned(l), s->x[i + l]);
+	add_to_squares(squares, s->at[place + lane], s->yz + 4 * place + turned(lane), s->x[place + lane]);
 }
 
 /* Part k of STREAMS of a lot. */
-PM_SIMD_INLINE void add_part(const struct lot *s, size_t k, double *squares)
+PM_SIMD_INLINE void add_part(const struct shares *s, size_t k, double *squares)
 {
-	enum { part = (PM_SIMD_WIDTH + STREAMS - 1) / STREAMS };
+	enum { part = PM_SIMD_WIDTH / STREAMS };
+	_Static_assert((int)part * STREAMS == PM_SIMD_WIDTH || !PM_TILE_CIC_EIGHT, "a lot has whole parts");
 	PM_SIMD_UNROLL
-	for (size_t l = k * part; l < k * part + part; l++) {
+	for (size_t lane = k * part; lane < k * part + part; lane++) {
 		PM_SIMD_UNROLL
 		for (size_t stream = 0; stream < STREAMS; stream++)
-			add_share(s, stream * PM_SIMD_WIDTH, l, squares);
+			add_share(s, stream * PM_SIMD_WIDTH, lane, squares);
 	}
 }
 
-/* Where particles come from: a batch and its strengths, or the records of t. One for each loop, so that its numbers stay in registers: what is stored might be
- * those of the caller. */
+/* Where particles come from: a batch and its strengths, or the records of t. Each loop has its own, whose lanes it need not load again when it has
+ * stored. */
 struct source {
 	const struct pm_tile *t;
 	struct pm_tile_batch batch;
 	const double *q;
-	pm_simd_int beyond[3];  /* bits of all cells, where it is looked whether particles are in the tile */
-	pm_simd_bits differ[3]; /* find_assumed: bits in which they are not `big` */
-	pm_simd down[3], first; /* big less the tile's first cell; the number of its first square */
+	pm_simd_int cells[3];   /* find_in_batch, where outside is asked for: all bits of cells within the tile */
+	pm_simd_bits differ[3]; /* find_assumed: bits in which cells are not `big` */
+	pm_simd down[3], first; /* find_assumed: big less the tile's first cell; squares of whole planes and rows before it */
 };
-/* Shares of a register of particles, from i on, to place `at` of a lot. */
-typedef void find(struct source *s, size_t i, size_t at, struct lot *to);
+/* Shares of a register of particles, from i on, to a place in a lot. */
+typedef void finder(struct source *s, size_t i, size_t place, struct shares *to);
 
+/* True where a finder looks at nothing. */
 PM_SIMD_INLINE bool all_inside(const struct source *s)
 {
 	pm_simd_int beyond = {0};
 	pm_simd_bits differ = {0};
 	for (int d = 0; d < 3; d++)
-		beyond |= s->beyond[d] >> pm_tile_shift[3][d], differ |= s->differ[d] >> pm_tile_shift[3][d];
+		beyond |= s->cells[d] >> pm_tile_shift[3][d], differ |= s->differ[d] >> pm_tile_shift[3][d];
 	return !pm_simd_any_bit(differ) && !pm_simd_int_others(beyond, 0);
 }
 
-/* The streams of m particles: a lot is added, part by part, while the next one is found (0.83 of a spread at 8 a cell). False: one is beyond the tile, and not
- * all are added. */
-PM_SIMD_INLINE bool add_streams(struct source *s, find *found, size_t m, double *squares)
+/* The streams of m particles: a lot is added, part by part, while the next one is found (0.9 of a spread at 8 a cell). A lot is looked at before it is added.
+ * False: one is beyond the tile, and not all are added. */
+PM_SIMD_INLINE bool add_streams(struct source *s, finder *find, size_t m, double *squares)
 {
 	const size_t each = of_each(m);
-	struct lot lots[2], *last = lots;
-	for (size_t i = 0; i < each; i += PM_SIMD_WIDTH) {
-		struct lot *here = &lots[i / PM_SIMD_WIDTH % 2];
+	struct shares lots[2], *last = lots;
+	bool inside = true;
+	if (!each)
+		return true;
+	for (size_t i = 0; i < each && inside; i += PM_SIMD_WIDTH) {
+		struct shares *here = &lots[i / PM_SIMD_WIDTH % 2];
 		PM_SIMD_UNROLL
 		for (size_t k = 0; k < STREAMS; k++) {
-			found(s, i + k * each, k * PM_SIMD_WIDTH, here);
+			find(s, i + k * each, k * PM_SIMD_WIDTH, here);
 			if (i)
 				add_part(last, k, squares);
 		}
-		if (!all_inside(s))
-			return false;
-		last = here;
+		inside = all_inside(s), last = here;
 	}
-	for (size_t k = 0; k < STREAMS && each; k++)
+	for (size_t k = 0; inside && k < STREAMS; k++)
 		add_part(last, k, squares);
-	return true;
+	return inside;
 }
 
-/* The rest, likewise. */
-PM_SIMD_INLINE bool add_rest(struct source *s, find *found, size_t m, double *squares)
+/* Those behind the streams, found and then added; false as there. */
+PM_SIMD_INLINE bool add_rest(struct source *s, finder *find, size_t m, double *squares)
 {
-	struct lot lot;
+	struct shares lot;
 	for (size_t from = STREAMS * of_each(m), some; from < m; from += some) {
 		some = m - from < LOT ? m - from : LOT;
 		for (size_t i = 0; i < some; i += PM_SIMD_WIDTH)
-			found(s, from + i, i, &lot);
+			find(s, from + i, i, &lot);
 		if (!all_inside(s))
 			return false;
 		for (size_t i = 0; i < some; i++)
@@ -116,7 +119,7 @@ PM_SIMD_INLINE bool add_rest(struct source *s, find *found, size_t m, double *sq
 	return true;
 }
 
-PM_SIMD_INLINE void find_in_batch(struct source *s, size_t i, size_t at, struct lot *to)
+PM_SIMD_INLINE void find_in_batch(struct source *s, size_t i, size_t place, struct shares *to)
 {
 	const struct eight e = find_eight(s->t, &s->batch, i);
 	pm_simd strength;
@@ -128,14 +131,16 @@ PM_SIMD_INLINE void find_in_batch(struct source *s, size_t i, size_t at, struct 
 		strength = pm_simd_load_any(few);
 	}
 	__builtin_prefetch(s->batch.next_value + i, 0, 2);
-	for (int d = 0; d < 3 && s->batch.outside; d++)
-		s->beyond[d] |= e.cell[d];
-	share(square_of(&e), e.distance, strength, at, to);
+	if (s->batch.outside)
+		for (int d = 0; d < 3; d++)
+			s->cells[d] |= e.cell[d];
+	share(square_of(&e), e.distance, strength, place, to);
 }
 
 #if PM_SIMD_DOWN
-/* Where each number between it and twice it is whole, and the last bits count. */
-static const double big = 0x1p52, y_apart = PM_ROW_SQUARES, z_apart = PM_PLANE_SQUARES;
+/* big: where each number between it and twice it is whole, and the last bits count. Squares from row to row, from plane to plane. */
+static const double big = 0x1p52;
+static const double y_apart = PM_ROW_SQUARES, z_apart = PM_PLANE_SQUARES;
 
 /* May a particle that is in the tile's cells be anywhere but where its position says? */
 static bool is_plain(const struct pm_tile *t, const struct pm_tile_batch *b)
@@ -149,8 +154,9 @@ static bool is_plain(const struct pm_tile *t, const struct pm_tile_batch *b)
 }
 
 /* Where the tile is plain, and each particle is assumed to be in it: as find_eight finds them, but that the sum that rounds down to a cell also holds its
- * number, and nobody looks whether a particle is beyond the box: there it is beyond the tile (0.95 of a spread at 8 a cell). */
-PM_SIMD_INLINE void find_assumed(struct source *s, size_t i, size_t at, struct lot *to)
+ * number, and nobody looks whether a particle is beyond the box: there it is beyond the tile. Positions are fetched into the second-level cache, as the first
+ * holds squares (0.96 of a spread at 8 a cell). */
+PM_SIMD_INLINE void find_assumed(struct source *s, size_t i, size_t place, struct shares *to)
 {
 	const struct pm_tile_batch *b = &s->batch;
 	pm_simd cell[3], whole[3], distance[3];
@@ -165,7 +171,7 @@ PM_SIMD_INLINE void find_assumed(struct source *s, size_t i, size_t at, struct l
 	}
 	__builtin_prefetch(b->next_value + i, 0, 2);
 	const pm_simd row = pm_simd_fma(pm_simd_all(y_apart), whole[1], cell[0] - s->first), square = pm_simd_fma(pm_simd_all(z_apart), whole[2], row);
-	share(pm_simd_low_halves(square), distance, pm_simd_load_any(s->q + i), at, to);
+	share(pm_simd_low_halves(square), distance, pm_simd_load_any(s->q + i), place, to);
 }
 
 static bool add_assumed(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
@@ -195,12 +201,12 @@ static bool add_rest_of_batch(const struct pm_tile *t, const struct pm_tile_batc
 
 void pm_tile_cic_spread(const struct pm_tile *t, const struct pm_tile_batch *b, const double *q)
 {
-	const bool inside = b->outside && is_plain(t, b) ? add_assumed(t, b, q) : add_batch(t, b, q);
-	if (!inside || (STREAMS * of_each(b->m) < b->m && !add_rest_of_batch(t, b, q)))
+	const bool inside = b->outside && is_plain(t, b) ? add_assumed(t, b, q) : add_batch(t, b, q), rest = STREAMS * of_each(b->m) < b->m;
+	if (!inside || (rest && !add_rest_of_batch(t, b, q)))
 		__atomic_store_n(b->outside, true, __ATOMIC_RELAXED);
 }
 
-PM_SIMD_INLINE void find_of_records(struct source *s, size_t i, size_t at, struct lot *to)
+PM_SIMD_INLINE void find_of_records(struct source *s, size_t i, size_t place, struct shares *to)
 {
 	const struct pm_tile *t = s->t;
 	pm_simd strength;
@@ -211,7 +217,7 @@ PM_SIMD_INLINE void find_of_records(struct source *s, size_t i, size_t at, struc
 			few[l] = t->records[(i + (i + l < t->count ? l : 0)) * (size_t)t->stride + (size_t)t->value];
 		strength = pm_simd_load_any(few);
 	}
-	share(square_of(&e), e.distance, strength, at, to);
+	share(square_of(&e), e.distance, strength, place, to);
 }
 
 void pm_tile_cic_spread_eight(const struct pm_tile *all)
@@ -221,8 +227,8 @@ void pm_tile_cic_spread_eight(const struct pm_tile *all)
 	for (size_t from = 0; from < all->count; from += PM_TILE_ORDER_PACK) {
 		t.records = all->records + from * (size_t)t.stride;
 		t.count = all->count - from < PM_TILE_ORDER_PACK ? all->count - from : PM_TILE_ORDER_PACK;
-		add_streams(&s, find_of_records, t.count, t.squares);
-		add_rest(&s, find_of_records, t.count, t.squares);
+		(void)add_streams(&s, find_of_records, t.count, t.squares); /* records are in their tile: nothing is looked at */
+		(void)add_rest(&s, find_of_records, t.count, t.squares);
 	}
 }
 
