@@ -139,8 +139,6 @@ single() { pinit "$@" | smod --no-history --store f32; } # fields that are held 
 	[ "$(wc -c <want)" -gt 100000 ]
 }
 
-# The same of forces of a potential: the kick that closes a step is left, and the push that opens the next one makes it, with the rates that m2p leaves.
-# Particles in order without and with places, with weights and without, on one tile and several; velocities across; what looks at rates, or changes them.
 # five_steps SENTENCE: from the file start, in one process and on pipes, in one run and in three with three, one and two threads; leaves `want`.
 five_steps() {
 	cycle --no-history --engine pipes -n 5 "$1" <start >want
@@ -149,6 +147,8 @@ five_steps() {
 	! cmp -s start want
 }
 
+# The same of forces of a potential: the kick that closes a step is left, and the push that opens the next one makes it, with the rates that m2p leaves.
+# Particles in order without and with places, with weights and without, on one tile and several; velocities across; what looks at rates, or changes them.
 @test "equal bytes: a step by a potential in one pass over the particles, in 1-D to 3-D" {
 	local leapfrog='push kick/2 drift | p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick/2' look='diag --tee table --no-history'
 	local euler='p2m KERNEL | poisson-fft | mgrad ORDER | m2p | push kick drift' c step
