@@ -292,8 +292,7 @@ static int stage_of(const struct pm_tool *own, const json_t *all, struct pm_stag
 
 static int wrong(const char *what, const json_error_t *error)
 {
-	const bool ended = !strcmp(pm_message(), "out of memory"); /* said by the allocator of jansson, whose reader may call it a wrong token */
-	const bool memory = ended || json_error_code(error) == json_error_out_of_memory || !*error->text;
+	const bool memory = !strcmp(pm_message(), "out of memory"); /* said by the allocator of jansson, whose reader may call it a wrong token */
 	return memory ? pm_no_memory() : pm_fail(PM_DATA, "%s is wrong: %s", what, error->text);
 }
 

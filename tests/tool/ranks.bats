@@ -841,12 +841,13 @@ good#cycle -n 2 "field 'acc = 1e300*exp(1e3*x), y, z' | push kick drift"
 good#cycle -n 2 "push drift | scalc 'a = 1/(x > 0.7)' 'b = 1/(x < 0.9)'"
 good#cycle -n 2 "push drift | scalc --type i64 'a = 1e30*(id == 8000)'"
 good#cycle -n 2 "push drift | scalc 'a = 1/(id != 5000), 1/(id != 200)'"
+good#cycle -n 1 "field 'acc = 1e308*(id == 5000), 1e308*(id == 200), z' | push kick --dt 100"
 good#cycle -n 2 'p2m -n 8'
 good#cycle -n 2 'push drift --ranks 2'
 good#cycle -n 2 'nothing | push drift'
 good#diag no-such-file
 END
-	[ $failed -eq 42 ]
+	[ $failed -eq 45 ]
 }
 
 @test "files with ranks: each reads and writes its own part, with the bytes of a run alone; several streams, f32, i64, a checkpoint over another" {
